@@ -195,7 +195,7 @@ void measure_closest(Report& report, const Case& c, int count) {
         {"closest", c.name, "", threads, "us", 1e6},
         {{"ours", Role::ours, turn(threads, count, [&] { ours = closest(surface, c.mesh.positions, q); })},
          {"unproved", Role::shown,
-          turn(threads, count, [&] { closest(surface, c.mesh.positions, q, {.prove = false}); })},
+          turn(threads, count, [&] { ours = closest(surface, c.mesh.positions, q, {.prove = false}); })},
          {"Embree float", Role::peer, turn(threads, count, [&] {
             triangles.commit();
             parallel_for(count, [&](std::int64_t i) { theirs[size_t(i)] = triangles.distance(q.row(i).transpose()); });

@@ -11,7 +11,7 @@
 #include "sublimit/stencils/bake/detail/table_info.h"
 #include "sublimit/stencils/bake/detail/table_mesh.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/stencils/files/frames.h"
 #include "sublimit/stencils/files/npy.h"

@@ -7,9 +7,9 @@
 #include "free_form.h"
 #include "memory_limit.h"
 #include "searched.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/search/detail/searched_surface.h"
 #include "sublimit/stencils/files/closest_files.h"
 
@@ -29,7 +29,7 @@ ClosestPointOptions search_options(const ClosestOptions& options) {
     if (!parsed || parsed.value < 1)
       throw InvalidOption(
           fmt::format("--nearest {}: it should be a whole number of faces, 1 or more", options.nearest));
-    search.count = parsed.value;
+    search.nearest = parsed.value;
   }
   if (!options.radius.empty()) {
     const Parsed<double> parsed = parse_number<double>(options.radius);
@@ -42,7 +42,7 @@ ClosestPointOptions search_options(const ClosestOptions& options) {
 
 ClosestPoints search_of(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& search,
                         Progress& progress) {
-  const double rows = double(queries.rows()) * std::min<double>(search.count, surface.faces().size);
+  const double rows = double(queries.rows()) * std::min<double>(search.nearest, surface.faces().size);
   constexpr double bytes_a_row = 300;  // of what is found, and of what it is collected in
   check_memory(fmt::format("{:.0f} nearest faces of {} points", rows, queries.rows()), rows * bytes_a_row,
                "give a smaller --nearest, or divide the file");

@@ -15,14 +15,14 @@
 
 #include "curves.h"
 #include "sublimit/base/detail/followed_links.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/no_limit.h"
+#include "sublimit/limit/limit_status.h"
 #include "sublimit/stencils/files/rule_of_word.h"
 #include "sublimit/stencils/files/sidecar.h"
 
@@ -170,8 +170,8 @@ void naming_mesh(const Common& common, const std::function<void()>& body) {
     throw InvalidMesh(place + error.what());
   } catch (const UnsupportedTopology& error) {
     throw UnsupportedTopology(place + error.what());
-  } catch (const NoLimit& error) {  // not a fault of ours: a mesh that the scheme has no limit of
-    throw UnsupportedTopology(place + error.what());
+  } catch (const NoLimit& error) {
+    throw Error(error.code(), place + error.what());
   } catch (const AnalysisError& error) {
     throw AnalysisError(place + error.what());
   }

@@ -6,8 +6,8 @@
 
 #include "common.h"
 #include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/eval/table_file.h"
 #include "sublimit/limit/limit_map.h"

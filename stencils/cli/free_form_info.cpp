@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "free_form.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/free_form_counts.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "free_form.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/write_mesh.h"

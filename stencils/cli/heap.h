@@ -9,7 +9,7 @@
 
 #include <climits>
 
-#include "sublimit/base/huge_pages.h"
+#include "sublimit/base/detail/huge_pages.h"
 
 namespace sublimit::cli {
 

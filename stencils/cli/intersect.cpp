@@ -7,8 +7,8 @@
 
 #include "free_form.h"
 #include "searched.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/search/detail/searched_surface.h"
 #include "sublimit/stencils/files/ray_files.h"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit::cli {
 

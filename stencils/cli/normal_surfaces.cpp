@@ -11,8 +11,8 @@
 
 #include "free_form.h"
 #include "recipes.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/obj_normals.h"
 #include "sublimit/io/write_mesh.h"

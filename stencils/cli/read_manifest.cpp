@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "bake_manifest.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit::cli {
 namespace {

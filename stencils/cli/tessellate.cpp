@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "common.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/stencils/files/glb.h"
 #include "sublimit/stencils/files/place_files.h"
@@ -17,6 +17,7 @@
 #include "sublimit/stencils/files/split_mesh.h"
 #include "sublimit/stencils/files/tessellation_mesh.h"
 #include "sublimit/stencils/files/vtu.h"
+#include "sublimit/stencils/jobs/detail/refined_job.h"
 #include "sublimit/tessellation/detail/bezier_cells.h"
 #include "sublimit/tessellation/detail/rated_tessellation.h"
 #include "sublimit/tessellation/detail/triangle_shapes.h"
@@ -79,11 +80,10 @@ void add_texture(const TessellateOptions& options, const Loaded& loaded, const L
   try {
     add_channel(out, made, *loaded.scheme, loaded.face_varying, loaded.mesh.face_varying[0], surface.level());
   } catch (const Error& error) {
-    const bool unable = error.code() == ErrorCode::unsupported_topology || error.code() == ErrorCode::invalid_option;
-    if (!unable || loaded.face_varying_asked) throw;
+    if (!may_leave_out(loaded, error)) throw;
     if (!options.common.quiet)
-      fmt::print(stderr, "sublimit: warning: {}: texture coordinates are left out: {}\n", options.common.mesh,
-                 error.what());
+      fmt::print(stderr, "sublimit: warning: {}: {}\n", options.common.mesh,
+                 left_out(loaded.mesh.face_varying[0], 0, error.what()));
   }
 }
 

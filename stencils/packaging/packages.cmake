@@ -87,7 +87,7 @@ if(TARGET sublimit_python)
   sublimit_package(python3-sublimit "subdivision surfaces and their exact limits (Python 3)"
                    "The module sublimit: what the program does, in arrays." SECTION python
                    DEPENDS "python3 (>= 3.${python_minor})" "python3 (<< 3.${python_next})" python3-numpy python3-scipy
-                   SUGGESTS python3-torch ALSO ${packaging}/python/postinst ${packaging}/python/prerm)
+                   SUGGESTS python3-torch sublimit-cad sublimit-implicit sublimit-gpu ALSO ${packaging}/python/postinst ${packaging}/python/prerm)
 endif()
 
 set(CPACK_GENERATOR DEB CACHE STRING "What cpack makes")

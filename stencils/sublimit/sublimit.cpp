@@ -8,9 +8,9 @@
 #include "sublimit/mesh/detail/check_mesh.h"
 #include "sublimit/mesh/detail/points_in_space.h"
 #include "sublimit/stencils/bake/detail/bake.h"
-#include "sublimit/stencils/files/tessellation_mesh.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
 #include "sublimit/stencils/jobs/detail/refined_job.h"
+#include "sublimit/stencils/jobs/detail/tessellated_job.h"
 
 namespace sublimit {
 namespace {
@@ -28,20 +28,20 @@ MeshJob job_of(const Mesh& mesh, const AnyScheme& scheme) {
 
 /// @throws InvalidParameter  none or several of the choices
 BakeRequest request_of(const BakeOptions& options) {
-  const int choices = int(options.levels.has_value()) + int(options.grid.has_value()) + int(!options.places.empty());
+  const int choices = int(options.levels.has_value()) + int(options.grid.has_value()) + int(!options.at.empty());
   if (choices != 1)
-    throw InvalidParameter("a table is of one of levels, grid and places; " + std::to_string(choices) +
+    throw InvalidParameter("a table is of one of levels, grid and at; " + std::to_string(choices) +
                            " of them are given");
   if (options.limit && !options.levels)
-    throw InvalidParameter("limit is of levels; grids and places are of the limit anyway");
+    throw InvalidParameter("limit is of levels; grid and at are of the limit anyway");
   BakeRequest request;
-  request.rows = options.grid              ? TableRows::grid
-                 : !options.places.empty() ? TableRows::samples
-                 : options.limit           ? TableRows::limit
-                                           : TableRows::level;
+  request.rows = options.grid          ? TableRows::grid
+                 : !options.at.empty() ? TableRows::samples
+                 : options.limit       ? TableRows::limit
+                                       : TableRows::level;
   request.level = options.levels.value_or(0);
   request.grid = options.grid.value_or(0);
-  request.samples = options.places;
+  request.samples = options.at;
   request.face_sizes = options.face_sizes;
   request.face_vertices = options.face_vertices;
   request.derivatives = options.derivatives;
@@ -92,15 +92,7 @@ Table bake(const Patches& patches, const BakeOptions& options) {
 }
 
 Mesh tessellate(const Mesh& mesh, const AnyScheme& scheme, const TessellationOptions& options) {
-  const AnyScheme taken = scheme.for_mesh(mesh);
-  const LimitSurface surface(mesh, scheme);
-  const Tessellation made = tessellate(surface, options);
-  Mesh triangles = tessellation_mesh(made, surface.map(), true);
-  if (options.normals) add_normals(triangles, made, surface.map(), surface.points(), false);
-  const auto interpolation = mesh.face_varying_interpolation.value_or(FaceVaryingInterpolation::all);
-  for (const Mesh::FaceVarying& channel : mesh.face_varying)
-    add_channel(triangles, made, *taken, interpolation, channel, surface.map().level());
-  return triangles;
+  return tessellated_mesh(job_of(mesh, scheme), options);
 }
 
 Fit fit(const Mesh& mesh, const AnyScheme& scheme, const std::vector<VertexTarget>& targets,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // The library in one header, in namespace sublimit. What the program does with meshes are functions of the same names:
-// refine, limit, closest, intersect, tessellate, bake, fit, info, construct; analyze, implicit and step too, if the
-// components report, implicit_mesh and cad are linked. Everything is a value; functions may be called by any thread.
+// refine, limit, closest, intersect, tessellate, bake, fit, info, construct; analyze, implicit and step too, if
+// sublimit::report, sublimit::implicit_mesh and sublimit::cad are linked (by CMake; pkg-config sublimit has report).
+// Everything is a value; functions may be called by any thread.
 //
 // Meshes come from files or arrays. A scheme is given by its name, by name and options, or as one of your own. The mesh
 // has tags (creases, corners, holes) and rules for boundaries, creases and triangles:
@@ -33,13 +34,14 @@
 //   const Limit cached = sublimit::limit(mesh, "catmull-clark", {.levels = 2, .cache = cache});
 //
 // The limit at any place: points, derivatives, normals, curvature, stencils. A place is (face, u, v), with u and v from
-// 0 to 1. Under schemes for triangles the face is a triangle of the mesh. Under others it is a face of the mesh if all
-// are quadrilaterals; any other polygon counts as one square for each corner, as Ptex does (limit/address.h):
+// 0 to 1. Under schemes for triangles the face is a triangle of the mesh, and u + v at most 1. Under others it is a
+// face of the mesh if all are quadrilaterals; any other polygon counts as one square for each corner, as Ptex does
+// (limit/address.h):
 //
 //   const LimitSurface surface(mesh, "catmull-clark");
 //   const LimitSamples samples = surface.evaluate({{.face = 0, .u = 0.5, .v = 0.25}}, 2);
 //   samples.position.row(0), samples.du.row(0), samples.duu.row(0), samples.normal.row(0);
-//   samples.status[0];  // LimitStatus::outside: there is no such place, and all numbers are 0
+//   samples.status[0];  // LimitStatus::outside: no such place; all numbers are 0, and nothing is thrown
 //   const std::optional<Curvature> bend = curvature(samples, 0);  // absent at extraordinary vertices
 //   bend->k1, bend->k2, bend->gauss, bend->mean;
 //   const PlaceStencils rows = surface.stencils(surface.grid(3));  // .matrices[0] * mesh.positions
@@ -52,7 +54,7 @@
 //   near.points.row(0), near.distances[0], near.places[0], near.normals.row(0);
 //   const RayHits hits = surface.intersect({{.origin = {0, 0, 9}, .direction = {0, 0, -1}}}, {.all = true});
 //   hits.t.size(), hits.points.row(0);
-//   write_mesh("triangles.obj", tessellate(mesh, "catmull-clark", {.chord = 1e-3, .normals = true}));
+//   write_mesh("triangles.obj", tessellate(mesh, "catmull-clark", {.chord = 1e-3, .normals = true}));  // .face_normals
 //   const Tessellation flat = surface.tessellate({.chord = 1e-3});
 //   flat.points.row(flat.triangles[t].vertices[0]), flat.places;
 //
@@ -70,6 +72,7 @@
 //
 //   const Fit fitted = fit(mesh, "loop", {{.vertex = 0, .position = {0, 0, 1}}});
 //   fitted.mesh, fitted.solved, fitted.why_not;
+//   const ScatteredFit near_places = fit_places(surface, {.places = places, .values = goals});  // goals: Points
 //   const CloudFit near_cloud = fit_cloud(surface, {.points = scan});  // scan: Points
 //   write_mesh("fitted.obj", mesh.with_points(near_cloud.points));
 //
@@ -154,8 +157,7 @@ namespace sublimit {
 ///                                           says where
 /// @throws ResourceError                     not enough memory, predicted before it is taken
 /// @note  All channels of `Mesh::face_varying` are refined. `warnings` of the result says what keeps the mesh from
-/// being
-///        a manifold, and why channels that the scheme cannot refine are left out.
+///        being a manifold, and why channels that the scheme cannot refine are left out.
 [[nodiscard]] Mesh refine(const Mesh& mesh, const AnyScheme& scheme, int levels,
                           const std::function<void(int)>& progress = {});
 
@@ -178,13 +180,13 @@ struct InfoOptions {
 /// @throws as `LimitSurface`  if `options.limit`
 [[nodiscard]] MeshInfo info(const Mesh& mesh, const AnyScheme& scheme, const InfoOptions& options = {});
 
-/// Points that a table makes. Set one of levels, grid and places.
+/// Points that a table makes. Set one of levels, grid and at.
 struct BakeOptions {
   std::optional<int> levels = {};  ///< vertices of this level, 1 to 11; 0 to 11 if `limit` is set
   bool limit = false;              ///< with `levels`: limits of the vertices instead of their positions on the level
   std::optional<int> grid = {};    ///< N x N places on each face, sides included, N from 2 to 2048
-  std::vector<Place> places = {};  ///< places on the limit, for example those of a `Tessellation`
-  /// With `places`: faces between them, as the number of corners of each face, and the places at all corners, face by
+  std::vector<Place> at = {};      ///< places on the limit, for example those of a `Tessellation`
+  /// With `at`: faces between them, as the number of corners of each face, and the places at all corners, face by
   /// face. Optional: `Table::faces` returns them.
   std::vector<Index> face_sizes = {}, face_vertices = {};
   int derivatives = 0;     ///< order of derivatives of the limit: 0, 1 (du, dv) or 2 (duu, duv, dvv too)
@@ -193,7 +195,7 @@ struct BakeOptions {
 };
 
 /// Bakes a table: weights over the control points for a connectivity and its tags. Positions do not matter.
-/// @throws InvalidParameter                  none of levels, grid and places, or several; numbers outside their range
+/// @throws InvalidParameter                  none of levels, grid and at, or several; numbers outside their range
 /// @throws InvalidMesh, UnsupportedTopology  the scheme cannot refine the mesh; the message says where
 /// @throws ResourceError                     not enough memory, predicted before it is taken
 /// @note  Points of levels are in an order of the table, not in that of `refine`; `Table::faces` has the faces between
@@ -202,14 +204,15 @@ struct BakeOptions {
 [[nodiscard]] Table bake(const Mesh& mesh, const AnyScheme& scheme, const BakeOptions& options);
 
 /// Bakes a table of classical patches. Level k consists of the control nets after halving every knot span k times.
-/// @throws InvalidParameter     none of levels, grid and places, or several; `limit`, which patches do not have
+/// @throws InvalidParameter     none of levels, grid and at, or several; `limit`, which patches do not have
 /// @throws UnsupportedTopology  levels of patches that have no nets
 /// @throws ResourceError        not enough memory, predicted before it is taken
 /// @note  A table of rational patches takes points (w x, w y, w z, w); see `Table::apply`.
 [[nodiscard]] Table bake(const Patches& patches, const BakeOptions& options);
 
 /// Returns triangles near the limit as a mesh, with the texture coordinates of the mesh and, if `options.normals`, a
-/// normal at each corner. `face_ids` of the result are the faces of the mesh that the triangles lie on.
+/// normal at each corner. `face_ids` of the result are the faces of the mesh that the triangles lie on; `warnings` says
+/// why texture coordinates that the scheme cannot refine are left out.
 /// @throws as `LimitSurface` and `tessellate` of a surface
 [[nodiscard]] Mesh tessellate(const Mesh& mesh, const AnyScheme& scheme, const TessellationOptions& options);
 

@@ -363,8 +363,8 @@ TEST_F(LackOfMemory, InFitsIsAnError) {
   const PlaceTargets places{.places = {{0, 0.5, 0.5}, {3, 0.25, 0.5}}, .values = Points::Ones(2, 3)};
   expect_survives_failures("fit_places", [&] { return bits(fit_places(surface, places, quads_.positions).points); });
   const Cloud cloud{.points = surface.evaluate_grid(quads_.positions, 3).position};
-  expect_survives_failures(
-      "fit_cloud", [&] { return bits(fit_cloud(surface, cloud, quads_.positions, {.max_iterations = 2}).points); });
+  expect_survives_failures("fit_cloud",
+                           [&] { return bits(fit_cloud(surface, cloud, quads_.positions, {.iterations = 2}).points); });
 }
 
 TEST_F(LackOfMemory, InRecipesIsAnError) {

@@ -83,7 +83,7 @@ def test_surfaces_are_those_of_patches(tmp_path: pathlib.Path) -> None:
     moved = surfaces.with_points(surfaces.points * [2, 2, 2, 1])
     np.testing.assert_allclose(moved.evaluate(0, [0, 0.3, 1], 0.5).points, 2 * at.points, rtol=0, atol=rounding)
     for points, words in ((surfaces.points[:, :3], r"points has shape \(6, 3\); \(6, 4\)"), (surfaces.points * np.nan, "is nan")):
-        with pytest.raises(ValueError, match=words):
+        with pytest.raises(sublimit.Error, match=words):
             surfaces.with_points(points)
 
 
@@ -128,9 +128,9 @@ def test_refuses_in_clear_words(tmp_path: pathlib.Path) -> None:
     curves = line.curves()
     for place, words in (((1, 0), "1"), ((0, 1.5), "1.5"), ((0, np.nan), "nan|finite"), ((0.5, 0), "segment has dtype float64"),
                          (([0, 0], [0, 0, 0]), "do not broadcast")):
-        with pytest.raises(ValueError, match=words):
+        with pytest.raises(sublimit.Error, match=words):
             curves.evaluate(*place)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="derivatives is 3"):
+    with pytest.raises(sublimit.Error, match="derivatives is 3"):
         curves.evaluate(0, 0, derivatives=3)
     for thing in (line, curves):
         with pytest.raises(TypeError, match="pickle"):

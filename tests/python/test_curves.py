@@ -57,12 +57,12 @@ def test_refined_polygons_tend_to_the_limit() -> None:
     ((POLYGON, "loop"), "no linear scheme of curves is called 'loop'"), ((POLYGON[0], "chaikin"), r"points has shape \(3,\)"),
     ((POLYGON[:1], "chaikin"), "1 point"), ((POLYGON * np.nan, "chaikin"), "is nan"), ((POLYGON, "hermite-merrien"), "tangents|derivatives")])
 def test_refuses_polygons(arguments: Any, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
+    with pytest.raises(sublimit.Error, match=words):
         sublimit.LimitCurve(*arguments)
 
 
 def test_refuses_places() -> None:
     curve = sublimit.LimitCurve(POLYGON, "chaikin")
     for place, words in (((10, 0), "10"), ((0, 1.5), "1.5"), (([0, 1], [0, 0, 0]), "do not broadcast"), ((0.5, 0), "segment has dtype float64")):
-        with pytest.raises(ValueError, match=words):
+        with pytest.raises(sublimit.Error, match=words):
             curve.evaluate(*place)  # type: ignore[arg-type]

@@ -53,11 +53,11 @@ def test_clouds_are_approached(cube: sublimit.Mesh) -> None:
 
 def test_refuses_in_clear_words(cube: sublimit.Mesh) -> None:
     points = cube.points
-    with pytest.raises(ValueError, match=r"points has shape \(8, 3\); \(2 targets, 3\) is right"):
+    with pytest.raises(sublimit.Error, match=r"points has shape \(8, 3\); \(2 targets, 3\) is right"):
         sublimit.fit(cube, "catmull-clark", [0, 1], points)
     with pytest.raises(sublimit.InvalidParameter, match="9"):
         sublimit.fit(cube, "catmull-clark", [9], points[:1])
-    with pytest.raises(ValueError, match=r"weights has shape \(3,\); \(1 targets,\) is right"):
+    with pytest.raises(sublimit.Error, match=r"weights has shape \(3,\); \(1 targets,\) is right"):
         sublimit.fit_places(cube, "catmull-clark", [0], 0, 0, points[:1], weights=[1, 2, 3])
     with pytest.raises(sublimit.InvalidParameter, match="target 0"):
         sublimit.fit_places(cube, "catmull-clark", [0], 2, 0, points[:1])

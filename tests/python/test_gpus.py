@@ -104,9 +104,9 @@ def test_refuses_what_gpus_do_not_take(gpu: str, cube: sublimit.Mesh) -> None:
 @pytest.mark.parametrize("device", ["", "GPU", "cuda", "gpu:", "gpu:-1", "gpu:x", "gpu:99999", 0, None])
 def test_refuses_other_devices(device: Any, cube: sublimit.Mesh) -> None:
     table = sublimit.bake(cube, "catmull-clark", levels=1)
-    with pytest.raises(ValueError, match="device is .*'cpu', 'gpu' or 'gpu:1' are right"):
+    with pytest.raises(sublimit.Error, match="device is .*'cpu', 'gpu' or 'gpu:1' are right"):
         table.apply(cube.points, device=device)
-    with pytest.raises(ValueError, match="device is"):
+    with pytest.raises(sublimit.Error, match="device is"):
         table.apply_transpose(np.zeros((26, 3)), device=device)
 
 

@@ -44,7 +44,7 @@ def test_faces_of_several_sizes() -> None:
         assert sizes.tolist() == [4, 3] and corners.tolist() == [0, 1, 2, 3, 0, 1, 2]
     # A tuple of two triangles is no (sizes, corners).
     assert sublimit.Mesh(SQUARE, ((0, 1, 2), (0, 2, 3))).face_array.tolist() == [[0, 1, 2], [0, 2, 3]]
-    with pytest.raises(ValueError, match=r"\[3, 4\] corners"):
+    with pytest.raises(sublimit.Error, match=r"\[3, 4\] corners"):
         sublimit.Mesh(SQUARE, [[0, 1, 2, 3], [0, 1, 2]]).face_array
 
 
@@ -63,7 +63,7 @@ def test_arrays_are_the_meshs_own(tagged: sublimit.Mesh) -> None:
     arrays: list[Any] = [tagged.points, *tagged.faces, tagged.holes, tagged.uv, tagged.uv_faces]
     for array in arrays:
         assert not array.flags.writeable and not array.flags.owndata
-        with pytest.raises(ValueError):
+        with pytest.raises(sublimit.Error):
             array[...] = 0
     assert tagged.points.ctypes.data == tagged.points.ctypes.data
     points = sublimit.Mesh(SQUARE, [[0, 1, 2, 3]]).points
@@ -149,7 +149,7 @@ def test_other_points_keep_the_tags_of_files(tmp_path: pathlib.Path) -> None:
     (np.full((4, 3), np.nan), r"points\[0, 0\] is nan"), (np.full((4, 3), np.inf), "is inf"), (np.full((4, 3), "a"), "dtype <U1"),
     ([[0, 0, 0]], r"shape \(1, 3\)"), (None, "objects")])
 def test_refuses_other_points(points: Any, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
+    with pytest.raises(sublimit.Error, match=words):
         sublimit.Mesh(SQUARE, [[0, 1, 2, 3]]).with_points(points)
 
 
@@ -183,7 +183,7 @@ def test_two_arrays_are_tags_or_rows() -> None:
     assert [part.tolist() for part in rows.corners] == [[3, 0], [1.5, 2.5]]
     pair = sublimit.Mesh(SQUARE, face, corners=(np.array([3, 0]), np.array([1.5, 2.5])))
     assert same(pair, rows)
-    with pytest.raises(ValueError, match="which may be"):
+    with pytest.raises(sublimit.Error, match="which may be"):
         sublimit.Mesh(SQUARE, face, corners=(np.array([3, 2]), np.array([0, 2])))
     two = sublimit.Mesh(SQUARE, face, creases=(np.array([0, 1, 2]), np.array([1, 2, 3])))
     assert [part.tolist() for part in two.creases] == [[[0, 1], [1, 2]], [2, 3]]
@@ -251,7 +251,7 @@ SEVERAL_COLUMNS = np.zeros((4, 4))
 ])
 def test_refuses_in_clear_words(given: dict[str, Any], words: str) -> None:
     arguments: dict[str, Any] = {"points": SQUARE, "faces": [[0, 1, 2, 3]], **given}
-    with pytest.raises(ValueError, match=words):
+    with pytest.raises(sublimit.Error, match=words):
         sublimit.Mesh(**arguments)
 
 

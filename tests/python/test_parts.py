@@ -94,7 +94,7 @@ def test_cad_files_are_the_programs(cube: sublimit.Mesh, program: Program, tmp_p
     surface = sublimit.LimitSurface(cube, "catmull-clark")
     requests: list[tuple[list[str], dict[str, Any]]] = [
         ([], {}), (["--tolerance", "0.01", "--no-packing"], dict(tolerance=0.01, pack=False)),
-        (["--join", "g1"], dict(join_smoothly=True))]
+        (["--join", "g1"], dict(join="g1"))]
     for words, options in requests:
         program("step", tmp_path / "cube.obj", "-s", "catmull-clark", *words, "-o", tmp_path / "program.brep", "--report",
                 tmp_path / "report.json", "--quiet")

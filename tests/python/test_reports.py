@@ -91,7 +91,7 @@ def test_meshes_are_the_programs(tagged: sublimit.Mesh, program: Program, tmp_pa
 def test_refuses_in_clear_words(cube: sublimit.Mesh, tmp_path: pathlib.Path) -> None:
     with pytest.raises(sublimit.InvalidOption, match="no scheme|unknown scheme"):
         sublimit.analyze("lop")
-    with pytest.raises(ValueError, match="2"):
+    with pytest.raises(sublimit.Error, match="2"):
         sublimit.analyze("loop", valences=[2])
     with pytest.raises(sublimit.InvalidOption, match="g7"):
         sublimit.analyze_mesh(cube, "catmull-clark", tolerance={"g7": 1})

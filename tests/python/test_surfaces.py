@@ -99,7 +99,7 @@ def test_curvature_of_a_torus() -> None:
         across = np.cos(np.arctan2(c.points[:, 2], r - 3))
         worst.append(abs(abs(k.gauss) - abs(across / (3 + across))).max())
     assert worst[1] < worst[0] / 3 < 0.02
-    with pytest.raises(ValueError, match="derivatives=2"):
+    with pytest.raises(sublimit.Error, match="derivatives=2"):
         surface.evaluate(0, 0, 0, derivatives=1).curvature()
     with pytest.raises(AttributeError, match="derivatives=1"):
         surface.evaluate(0, 0, 0).normals
@@ -118,7 +118,7 @@ def test_closest_points(cube: sublimit.Mesh) -> None:
 def test_nearest_faces_radii_and_signs(cube: sublimit.Mesh) -> None:
     surface = sublimit.LimitSurface(cube, "bilinear")  # [0, 1]^3
     inside, outside = [0.5, 0.4, 0.9], [0.5, 0.5, 3]
-    found = surface.closest([inside, outside], count=3, radius=1.9)
+    found = surface.closest([inside, outside], nearest=3, radius=1.9)
     assert found.first.tolist() == [0, 3, 3]
     np.testing.assert_allclose(found.distance, [0.1, 0.4, 0.5], atol=searched)
     assert len(set(found.face)) == 3
@@ -126,7 +126,7 @@ def test_nearest_faces_radii_and_signs(cube: sublimit.Mesh) -> None:
     with pytest.raises(sublimit.UnsupportedTopology, match="closed"):
         sublimit.LimitSurface(sublimit.Mesh(cube.points[:4], [[0, 1, 2, 3]]), "bilinear").closest([inside], signed=True)
     with pytest.raises(sublimit.InvalidParameter, match="0 nearest"):
-        surface.closest([inside], count=0)
+        surface.closest([inside], nearest=0)
 
 
 def test_rays(cube: sublimit.Mesh) -> None:
@@ -146,7 +146,7 @@ def test_rays(cube: sublimit.Mesh) -> None:
     assert len(surface.intersect(origins, directions, tmax=[0.1, 1, 0.1]).t) == 0
     with pytest.raises(sublimit.InvalidParameter, match="direction"):
         surface.intersect(origins, [0, 0, 0])
-    with pytest.raises(ValueError, match="do not fit together"):
+    with pytest.raises(sublimit.Error, match="do not fit together"):
         surface.intersect(origins, np.zeros((2, 3)))
 
 
@@ -167,7 +167,7 @@ def test_tessellations_are_the_programs(tagged: sublimit.Mesh, program: Program,
     np.testing.assert_allclose(table.apply(tagged.points), near.points, rtol=0, atol=rounding)
     sizes, corners = table.faces
     assert (sizes == 3).all() and np.array_equal(corners, near.triangles.ravel())
-    with pytest.raises(ValueError, match="one of levels, grid, at and tessellation"):
+    with pytest.raises(sublimit.Error, match="one of levels, grid, at and tessellation"):
         sublimit.bake(tagged, "catmull-clark", 2, tessellation=near)
     assert len(surface.tessellate(0.01, angle=0.1).triangles) > len(near.triangles)
     with pytest.raises(sublimit.InvalidParameter, match="chord"):
@@ -223,7 +223,7 @@ def test_rates_of_edges(cube: sublimit.Mesh, program: Program, tmp_path: pathlib
                          ({(0, 1): -3}, "the rate -3"), ([(0, 1, 2), (1, 0, 2)], "two rates"),
                          ({(0, 1): 1.5}, "the rate 1.5; whole"), ({(0, 1): np.nan}, "the rate nan"),
                          ({(0.5, 1): 2}, "vertex 0.5; whole"), ([(0, 1)], r"rates has shape \(1, 2\)")):
-        with pytest.raises(ValueError, match=words):
+        with pytest.raises(sublimit.Error, match=words):
             surface.tessellate(0.1, rates=rates)
 
 
@@ -271,7 +271,7 @@ def test_searches_are_functions_too(cube: sublimit.Mesh) -> None:
     wrong: list[tuple[Any, str]] = [(np.zeros((2, 2)), r"points has shape \(2, 2\)"), ([[0, 0, np.nan]], "is nan"),
                                     ([["a", "b", "c"]], "dtype")]
     for bad, words in wrong:
-        with pytest.raises(ValueError, match=words):
+        with pytest.raises(sublimit.Error, match=words):
             sublimit.closest(surface, bad)
 
 
@@ -286,7 +286,7 @@ def test_surfaces_with_other_points(tagged: sublimit.Mesh) -> None:
     assert np.array_equal(surface.points, tagged.points)  # it never changes
     for points, words in ((tagged.points[1:], r"points has shape \(19, 3\); \(20 control points, 3\)"),
                           (tagged.points * np.nan, "is nan"), (tagged.points[:, :2], r"shape \(20, 2\)")):
-        with pytest.raises(ValueError, match=words):
+        with pytest.raises(sublimit.Error, match=words):
             surface.with_points(points)
 
 
@@ -298,11 +298,11 @@ def test_surfaces_with_other_points(tagged: sublimit.Mesh) -> None:
 def test_refuses_in_clear_words(place: Any, words: str, cube: sublimit.Mesh) -> None:
     surface = sublimit.LimitSurface(cube, "catmull-clark")
     for call in (surface.evaluate, surface.stencils):
-        with pytest.raises(ValueError, match=words):
+        with pytest.raises(sublimit.Error, match=words):
             call(*place)
-    with pytest.raises(ValueError, match="derivatives is 3; 0, 1 or 2"):
+    with pytest.raises(sublimit.Error, match="derivatives is 3; 0, 1 or 2"):
         surface.evaluate(0, 0, 0, derivatives=3)
-    with pytest.raises(ValueError, match=r"points has shape \(3,\); \(n, 3\) is right"):
+    with pytest.raises(sublimit.Error, match=r"points has shape \(3,\); \(n, 3\) is right"):
         surface.closest([0, 0, 0])
 
 

@@ -37,9 +37,9 @@ def test_keeps_the_dtype_and_refuses_the_rest(cube: sublimit.Mesh) -> None:
     table = sublimit.bake(cube, "catmull-clark", levels=1)
     for dtype in (torch.float32, torch.float64):
         assert sublimit.torch.apply(table, torch.tensor(cube.points, dtype=dtype)).dtype == dtype
-    with pytest.raises(ValueError, match="points has shape"):
+    with pytest.raises(sublimit.Error, match="points has shape"):
         sublimit.torch.apply(table, torch.zeros(3, 3))
-    with pytest.raises(ValueError, match="on meta; points.cpu"):
+    with pytest.raises(sublimit.Error, match="on meta; points.cpu"):
         sublimit.torch.apply(table, torch.zeros(8, 3, device="meta"))
 
 
@@ -131,7 +131,7 @@ def test_rational_patches_move_along_u_and_v() -> None:
     u = torch.tensor([0.25, 0.5], dtype=torch.float64, requires_grad=True)
     assert torch.autograd.gradcheck(lambda u: sublimit.torch.evaluate(arc, 0, u, 0.5), (u,))
     assert torch.autograd.gradgradcheck(lambda u: sublimit.torch.evaluate(arc, 0, u, 0.5), (u,))
-    with pytest.raises(ValueError, match="points of rational patches are quotients"):
+    with pytest.raises(sublimit.Error, match="points of rational patches are quotients"):
         sublimit.torch.evaluate(arc, 0, u, 0.5, torch.tensor(arc.points))
 
 
@@ -163,7 +163,7 @@ def test_refuses_places(cube: sublimit.Mesh) -> None:
         ((0, half, half, torch.zeros(7, 3)), r"points has shape \(7, 3\); \(..., 8 control points, channels\)"),
         ((0, half, half, torch.zeros(8)), r"points has shape \(8,\)")]
     for arguments, words in attempts:
-        with pytest.raises(ValueError, match=words):
+        with pytest.raises(sublimit.Error, match=words):
             sublimit.torch.evaluate(surface, *arguments)
     with pytest.raises(TypeError, match="surface is a Mesh"):
         sublimit.torch.evaluate(cube, 0, half, half)  # type: ignore[arg-type]

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit::testing {
 

@@ -81,7 +81,7 @@ TEST(Construct, MakesPatchesThatSurfacesAreEvaluatedOf) {
   table.apply({patches.points().data(), size_t(patches.points().size())}, 3, result);
   for (Index i = 0; i < all.position.size(); ++i)
     EXPECT_LE(std::abs(result[size_t(i)] - all.position.data()[i]), some_roundings);
-  expect_error<InvalidParameter>([&] { (void)bake(patches, {}); }, {"one of levels, grid and places"});
+  expect_error<InvalidParameter>([&] { (void)bake(patches, {}); }, {"one of levels, grid and at"});
 }
 
 TEST(Construct, PatchesAreSearchedAsLimitsAre) {
@@ -156,6 +156,19 @@ TEST(Verbs, TrianglesAreAMeshWithNormalsAndTextureCoordinates) {
     }
   EXPECT_EQ(with_normals, 3 * made.triangles.size());
   expect_error<InvalidParameter>([&] { (void)tessellate(mesh, "catmull-clark", {.chord = 0}); }, {"chord", "0"});
+}
+
+TEST(Verbs, LeaveOutChannelsThatASchemeCannotRefineAndSaySo) {
+  Mesh mesh = cube();
+  mesh.face_varying.push_back({.name = "uv", .values = Points::Zero(4, 2), .indices = {}});
+  for (Index c = 0; c < 24; ++c) mesh.face_varying[0].indices.push_back(c % 4);
+  const Mesh refined = refine(mesh, "doo-sabin", 1), triangles = tessellate(mesh, "doo-sabin", {.chord = 0.1});
+  for (const Mesh* const made : {&refined, &triangles}) {
+    EXPECT_TRUE(made->face_varying.empty());
+    ASSERT_EQ(made->warnings.size(), 1u);
+    EXPECT_TRUE(made->warnings[0].starts_with("texture coordinates are left out: doo-sabin")) << made->warnings[0];
+  }
+  EXPECT_EQ(triangles.num_faces(), Index(LimitSurface(mesh, "doo-sabin").tessellate({.chord = 0.1}).triangles.size()));
 }
 
 TEST(Verbs, RefineAllChannels) {

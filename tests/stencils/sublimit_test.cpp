@@ -260,7 +260,7 @@ TEST(Verbs, RefuseWhatIsWrong) {
   const auto other = std::make_shared<LimitCache>(find_scheme("bilinear").value());
   expect_error<InvalidParameter>([&] { (void)limit(good, "catmull-clark", {.cache = other}); }, {"bilinear"});
   expect_error<InvalidParameter>([&] { (void)LimitSurface(good, "catmull-clark", other); }, {"bilinear"});
-  expect_error<InvalidParameter>([&] { (void)bake(good, "catmull-clark", {}); }, {"one of levels, grid and places"});
+  expect_error<InvalidParameter>([&] { (void)bake(good, "catmull-clark", {}); }, {"one of levels, grid and at"});
   expect_error<InvalidParameter>([&] { (void)bake(good, "catmull-clark", {.levels = 1, .grid = 3}); }, {"2 of them"});
   expect_error<InvalidParameter>([&] { (void)bake(good, "catmull-clark", {.limit = true, .grid = 3}); },
                                  {"limit is of levels"});
@@ -341,10 +341,36 @@ Scheme<T> mine(int weight) {
       .creases = cubic_bspline_creases<T>()};
 }
 
+/// Another weight where one sharp edge ends.
+template <class T>
+Scheme<T> mine_at_darts(int weight) {
+  Scheme<T> scheme = mine<T>(1);
+  const auto smooth = scheme.steps[0].masks.vertex;
+  scheme.steps[0].masks.vertex = [=](const Ring<T>& v) {
+    return v.is_closed() ? smooth(v) : Stencil<T>((weight * v.center() + v.neighbor_mean()) / (weight + 1));
+  };
+  return scheme;
+}
+
+TEST(Verbs, WhatTemporariesReturnLives) {
+  const std::string& json = analyze("loop", {.valences = {3}}).json();
+  const Points& points = LimitSurface(cube(), "catmull-clark").points();
+  const Scheme<double>& scheme = *AnyScheme("loop");
+  const TableInfo& info = bake(cube(), "catmull-clark", {.levels = 1}).info();
+  EXPECT_EQ(json.front(), '{');
+  EXPECT_EQ(points, cube().positions);
+  EXPECT_EQ(scheme.name, "loop");
+  EXPECT_EQ(info.scheme, "catmull-clark");
+}
+
 TEST(Verbs, ReportsNeedTheSameMasksInBothNumbers) {
   EXPECT_NE(analyze(mine<double>(1), mine<Algebraic>(1), {.valences = {4, 3, 4}}).json(), "");
   expect_error<InvalidParameter>([&] { (void)analyze(mine<double>(1), mine<Algebraic>(2), {.valences = {3}}); },
                                  {"mine", "exact numbers", "same masks"});
+  EXPECT_NE(analyze(mine_at_darts<double>(2), mine_at_darts<Algebraic>(2), {.valences = {4}}).json(), "");
+  expect_error<InvalidParameter>(
+      [&] { (void)analyze(mine_at_darts<double>(2), mine_at_darts<Algebraic>(3), {.valences = {4}}); },
+      {"mine", "exact numbers", "same masks"});
   expect_error<InvalidParameter>([&] { (void)analyze(mine<double>(1), Scheme<Algebraic>{}, {.valences = {3}}); },
                                  {"steps"});
   expect_error<InvalidParameter>([&] { (void)analyze("loop", {.valences = {}}); }, {"valences"});

@@ -73,7 +73,7 @@ Otherwise before_it_begins(const std::string& words) {
   return says(Door::program, "it looks at its files before it begins", words);
 }
 Otherwise of_arrays(const std::string& words) {
-  return raises("ValueError", "arguments are looked at before anything is made of them", words);
+  return says(Door::python, "arrays are looked at as such, by name and shape, before anything is made of them", words);
 }
 
 struct Row {
@@ -549,7 +549,7 @@ TEST_F(ThreeDoors, RefuseNumbersOutOfTheirRange) {
        by_program({"refine", "-l", "30", "-o", "out.obj"}), "sublimit.refine(cube, 'catmull-clark', 30)"},
       {"no nearest faces",
        invalid_parameter,
-       [&] { (void)closest(surface, point, {.count = 0}); },
+       [&] { (void)closest(surface, point, {.nearest = 0}); },
        by_program({"closest", "--points", "points.csv", "--nearest", "0", "-o", "out.csv"}),
        "surface.closest([[2, 0, 0]], count=0)",
        {on_the_line("--nearest 0: it should be a whole number of faces, 1 or more")}},
@@ -641,13 +641,13 @@ TEST_F(ThreeDoors, RefusePlacesOutside) {
        {in_a_file("u is 'nan'; it should be a finite number")}},
       {"a face that there is not, to bake",
        invalid_parameter,
-       [&] { (void)bake(cube(), "catmull-clark", {.places = {{.face = 6, .u = 0, .v = 0}}}); },
+       [&] { (void)bake(cube(), "catmull-clark", {.at = {{.face = 6, .u = 0, .v = 0}}}); },
        baked("face.csv"),
        "sublimit.bake(cube, 'catmull-clark', at=(6, 0, 0))",
        {in_a_file()}},
       {"outside of the square, to bake",
        invalid_parameter,
-       [&] { (void)bake(cube(), "catmull-clark", {.places = {{.face = 0, .u = 1.5, .v = 0.25}}}); },
+       [&] { (void)bake(cube(), "catmull-clark", {.at = {{.face = 0, .u = 1.5, .v = 0.25}}}); },
        baked("square.csv"),
        "sublimit.bake(cube, 'catmull-clark', at=(0, 1.5, 0.25))",
        {in_a_file()}},
@@ -982,7 +982,7 @@ TEST_F(ThreeDoors, RefuseTargetsThatNoFitCanMeet) {
       {"a negative number of iterations",
        invalid_parameter,
        [&] {
-         (void)fit_cloud(surface, {.points = Points{{0, 0, 0}}}, {.max_iterations = -1});
+         (void)fit_cloud(surface, {.points = Points{{0, 0, 0}}}, {.iterations = -1});
        },
        near("cloud.csv", {"--iterations", "-1"}),
        of + "[[0, 0, 0]], iterations=-1)",

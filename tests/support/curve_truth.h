@@ -4,7 +4,7 @@
 // and differences of its points are the derivatives.
 #include <map>
 
-#include "sublimit/curves/curve_refine.h"
+#include "sublimit/curves/detail/curve_levels.h"
 #include "support/precise_schemes.h"
 
 namespace sublimit::testing {

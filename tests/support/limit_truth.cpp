@@ -148,7 +148,7 @@ double largest(const Vector& v) { return static_cast<double>(Precise(v.cwiseAbs(
 
 }  // namespace
 
-TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Points& points, const Place& sample,
+TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Points& points, const Place& place,
                      const TruthOptions& options) {
   if (level.number % scheme.period != 0) throw InvalidParameter("the level's number must be even for " + scheme.name);
   const Spline spline = spline_of(scheme);
@@ -160,7 +160,7 @@ TruePoint true_limit(const Scheme<Precise>& scheme, const Level& level, const Po
   stage.level.holes = level.holes;
   stage.points = points.cast<Precise>();
   stage.strays.assign(size_t(points.rows()), 0);
-  stage.place = place_of(level.topology(), scheme.face_size() == 3, sample);
+  stage.place = place_of(level.topology(), scheme.face_size() == 3, place);
   // Which faces are prepared depends on all of them.
   if (scheme.preparation.empty() || level.number > 0) stage = cut_out(stage, false, rings);
 

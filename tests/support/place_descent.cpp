@@ -148,21 +148,21 @@ DescentPlace through_dual(DescentPlace p, std::span<const TakenStep> steps) {
 
 }  // namespace
 
-DescentPlace place_of(const Topology& control, bool triangles, const Place& sample) {
+DescentPlace place_of(const Topology& control, bool triangles, const Place& place) {
   const Addresses addresses(control, triangles);
-  if (sample.face < 0 || sample.face >= addresses.size())
-    throw InvalidParameter("address " + std::to_string(sample.face) + " does not exist");
-  const auto [face, corner] = addresses.place(sample.face);
+  if (place.face < 0 || place.face >= addresses.size())
+    throw InvalidParameter("address " + std::to_string(place.face) + " does not exist");
+  const auto [face, corner] = addresses.place(place.face);
   const bool inside =
-      sample.u >= 0 && sample.v >= 0 && (triangles ? sample.u + sample.v <= 1 : sample.u <= 1 && sample.v <= 1);
+      place.u >= 0 && place.v >= 0 && (triangles ? place.u + place.v <= 1 : place.u <= 1 && place.v <= 1);
   if (!inside) throw InvalidParameter("the place is outside its square or triangle");
   DescentPlace p;
   p.cell = triangles    ? DescentPlace::Cell::triangle
            : corner < 0 ? DescentPlace::Cell::square
                         : DescentPlace::Cell::corner;
   p.frame = control.corner(face, std::max<Index>(corner, 0));
-  p.x = sample.u;
-  p.y = sample.v;
+  p.x = place.u;
+  p.y = place.v;
   return p;
 }
 

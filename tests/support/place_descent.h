@@ -28,7 +28,7 @@ struct DescentPlace {
 
 /// Where an address is.
 /// @throws InvalidParameter  no such address, or a place outside it
-DescentPlace place_of(const Topology& control, bool triangles, const Place& sample);
+DescentPlace place_of(const Topology& control, bool triangles, const Place& place);
 
 /// One refinement with the topology that it refined.
 struct TakenStep {

@@ -62,6 +62,9 @@ struct FormatError : Error {
 /// is not closed.
 struct AnalysisError : Error {
   explicit AnalysisError(const std::string& message) : Error(ErrorCode::analysis_error, message) {}
+
+ protected:
+  AnalysisError(ErrorCode code, const std::string& message) : Error(code, message) {}
 };
 /// Thrown for a file that cannot be opened, read or written, and for a GPU that is lost.
 struct IoError : Error {

@@ -104,7 +104,7 @@ std::int64_t Table::num_points() const {
 int Table::quantities() const {
   return prepared_->visit([](const auto& table, const auto&) { return int(table.table.quantities()); });
 }
-const TableInfo& Table::info() const {
+const TableInfo& Table::info() const& {
   return *prepared_->visit([](const auto& table, const auto&) { return &table.info; });
 }
 bool Table::is_double() const { return prepared_->of_double.has_value(); }

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sublimit/eval/pattern_evaluator.h"
@@ -39,8 +40,9 @@ class Table {
   /// Returns the number of results that `apply` makes of points with so many channels.
   /// @throws InvalidParameter  channels below 1, for a rational table below 2
   size_t num_results(int channels) const;
-  const TableInfo& info() const;  ///< description: scheme, kind of points, statuses
-  bool is_double() const;         ///< true if weights are double, false if they are float
+  const TableInfo& info() const&;                              ///< description: scheme, kind of points, statuses
+  TableInfo info() && { return std::as_const(*this).info(); }  ///< a copy, from temporaries
+  bool is_double() const;                                      ///< true if weights are double, false if they are float
   /// Returns the faces between the points, without those of holes.
   /// @throws ResourceError  more points than 32-bit indices count
   FaceList faces() const;

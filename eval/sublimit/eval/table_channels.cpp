@@ -5,9 +5,9 @@
 #include <cmath>
 #include <span>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 namespace {

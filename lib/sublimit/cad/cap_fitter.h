@@ -26,7 +26,7 @@ struct SeenFromCorner {
   SeenFromCorner(const CadCell& cell, int corner);
   Place place(Index address, double u, double v) const;
   /// The place by whose parameters a cap is fitted.
-  Place warped(const Place& sample, double exponent) const;
+  Place warped(const Place& place, double exponent) const;
 };
 
 /// The corner of each cell that its only child without a polynomial is at; -1 if there is none.
@@ -48,7 +48,7 @@ class CapFitter {
   std::vector<double> deviations(const std::vector<LimitQuad>& quads) const;
 
  private:
-  Place inside(Place sample) const;
+  Place inside(Place place) const;
   /// Exponents of r for the cells of each group, 0 where there is no vertex to shrink to.
   std::vector<double> exponents(const std::vector<CadCell>& cells, std::span<const int> centres,
                                 std::span<const size_t> group) const;

@@ -9,9 +9,9 @@
 #include <optional>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/cad/cad_cells.h"
 #include "sublimit/cad/cap_fitter.h"
 #include "sublimit/cad/signed_classes.h"

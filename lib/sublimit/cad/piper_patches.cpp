@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/cad/piper_patches.h"
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/geometric/piper.h"
 #include "sublimit/patches/constructions/triangle_patch.h"
 

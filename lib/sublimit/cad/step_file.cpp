@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/cad/limit_model.h"
 #include "sublimit/cad/patch_model.h"
 #include "sublimit/io/detail/file_extension.h"
@@ -67,7 +67,7 @@ StepFile write_step(const LimitSurface& surface, const std::filesystem::path& pa
   wanted.tolerance = options.tolerance.value_or(1e-5 * diagonal_of(surface.points()));
   if (!(wanted.tolerance > 0))
     throw InvalidMesh("the control points have no extent that a tolerance could be a part of");
-  wanted.join_smoothly = options.join_smoothly;
+  wanted.join_smoothly = options.join == StepJoin::g1;
   wanted.pack = options.pack;
   wanted.face_names = options.face_names;
   const LimitModel model = model_of(surface, wanted);

@@ -11,6 +11,11 @@
 
 #include <cstdint>
 
+#if EIGEN_MAX_ALIGN_BYTES != 16 || !EIGEN_MALLOC_ALREADY_ALIGNED
+#error \
+    "Eigen's allocation differs from the library's; compile with -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1, which linking sublimit::lib in CMake and pkg-config add"
+#endif
+
 namespace sublimit {
 
 /// Numbers of points, faces, rows, ...: 32 bits.
@@ -40,5 +45,17 @@ constexpr bool exists(HalfEdge h) { return index(h) >= 0; }
 using Points = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 /// Weights: each row is a stencil, the weights of one new point over the old ones, columns ascending.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;
+
+/// Returns a matrix that has taken over the elements of `m`. Eigen 3.4 copies where it could move, and even its empty
+/// sparse matrix takes memory, which a move constructor must not. Afterwards `m` may only be assigned to or destroyed.
+template <class Matrix>
+Matrix moved(Matrix& m) noexcept {
+  Matrix result(m.markAsRValue());
+  struct Mark : Matrix {
+    static auto member() { return &Mark::m_isRValue; }
+  };
+  m.*Mark::member() = false;  // or the next copy of `m` would take its elements away
+  return result;
+}
 
 }  // namespace sublimit

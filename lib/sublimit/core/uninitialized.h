@@ -5,15 +5,17 @@
 //
 //   UninitializedVector<Index> twins(num_half_edges);  // no element has a value yet
 //   for (Index h = 0; h < num_half_edges; ++h) twins[size_t(h)] = -1;
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <new>
 #include <utility>
 #include <vector>
 
-#include "sublimit/base/huge_pages.h"
-
 namespace sublimit {
+
+/// Asks the system for huge pages for an array of 2 MB or more that has not been written yet.
+void advise_huge_pages(void* data, std::size_t bytes) noexcept;
 
 /// Allocator of `UninitializedVector`: elements without arguments are default-initialised, numbers left as they are.
 template <class T>
@@ -28,7 +30,7 @@ struct UninitializedAllocator : std::allocator<T> {
 
   T* allocate(std::size_t count) {
     T* const data = std::allocator<T>::allocate(count);
-    prefer_huge_pages(data, count * sizeof(T));
+    advise_huge_pages(data, count * sizeof(T));
     return data;
   }
 
@@ -50,8 +52,8 @@ using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 template <class Matrix>
 void resize_nonzeros(Matrix& matrix, std::int64_t count) {
   matrix.resizeNonZeros(count);
-  prefer_huge_pages(matrix.innerIndexPtr(), count * sizeof(*matrix.innerIndexPtr()));
-  prefer_huge_pages(matrix.valuePtr(), count * sizeof(*matrix.valuePtr()));
+  advise_huge_pages(matrix.innerIndexPtr(), count * sizeof(*matrix.innerIndexPtr()));
+  advise_huge_pages(matrix.valuePtr(), count * sizeof(*matrix.valuePtr()));
 }
 
 }  // namespace sublimit

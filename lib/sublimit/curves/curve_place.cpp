@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 
@@ -34,13 +34,13 @@ void CurveSamples::set_normal(Index row, double noise) {
   if (length > 16 * std::numeric_limits<double>::epsilon() * bend.stableNorm()) normal.row(row) = across / length;
 }
 
-void check_sample(const CurvePlace& sample, Index segments, std::int64_t row) {
+void check_sample(const CurvePlace& place, Index segments, std::int64_t row) {
   const std::string where = row < 0 ? "" : "sample " + format_number(row) + ": ";
-  if (sample.segment < 0 || sample.segment >= segments)
-    throw InvalidParameter(where + "segment " + format_number(sample.segment) +
+  if (place.segment < 0 || place.segment >= segments)
+    throw InvalidParameter(where + "segment " + format_number(place.segment) +
                            " does not exist; there are segments 0 to " + format_number(segments - 1));
-  if (!(sample.t >= 0 && sample.t <= 1))
-    throw InvalidParameter(where + "t is " + format_number(sample.t) + "; it must be a number from 0 to 1");
+  if (!(place.t >= 0 && place.t <= 1))
+    throw InvalidParameter(where + "t is " + format_number(place.t) + "; it must be a number from 0 to 1");
 }
 
 }  // namespace sublimit

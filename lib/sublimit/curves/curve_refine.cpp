@@ -8,6 +8,7 @@
 
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/curves/detail/curve_levels.h"
 #include "sublimit/scheme/detail/check_levels.h"
 
 namespace sublimit {

@@ -51,21 +51,21 @@ struct LimitCurve::Parts {
                               first_segment.begin() - 1);
   }
 
-  /// Position of the sample's point, and how many half edges there are to the next.
+  /// Position of the first point of a segment, and its length in half edges.
   std::pair<std::int64_t, int> ends(const CurveOutline& curve, Index segment) const {
     const std::int64_t from = pieces.layout().position(curve, segment);
     if (curve.closed) return {from, 2};
     return {from, static_cast<int>(pieces.layout().position(curve, segment + 1) - from)};
   }
 
-  PieceOfCurve place(const CurvePlace& sample) const {
+  PieceOfCurve place(const CurvePlace& place) const {
     PieceOfCurve p;
-    p.curve = curve_of(sample.segment);
+    p.curve = curve_of(place.segment);
     const CurveOutline& curve = curves[p.curve];
-    const auto [from, length] = ends(curve, sample.segment - first_segment[p.curve]);
+    const auto [from, length] = ends(curve, place.segment - first_segment[p.curve]);
     // Position from + length t; its distance from the even number before, in edges.
     p.piece = from >= 0 ? from / 2 : -((1 - from) / 2);
-    const double t = length == 2 ? sample.t : sample.t / 2;
+    const double t = length == 2 ? place.t : place.t / 2;
     if (from % 2 == 0) {
       p.s = t;
     } else if (t < 0.5) {
@@ -180,24 +180,24 @@ Index LimitCurve::first_segment(Index curve) const {
   return parts_->first_segment[curve];
 }
 
-double LimitCurve::parameter(const CurvePlace& sample) const {
-  check_sample(sample, num_segments());
-  const Index curve = parts_->curve_of(sample.segment);
+double LimitCurve::parameter(const CurvePlace& place) const {
+  check_sample(place, num_segments());
+  const Index curve = parts_->curve_of(place.segment);
   const CurveOutline& outline = parts_->curves[curve];
-  const auto [from, length] = parts_->ends(outline, sample.segment - parts_->first_segment[curve]);
-  return static_cast<double>(from - parts_->pieces.layout().position(outline, 0)) / 2 + length * sample.t / 2;
+  const auto [from, length] = parts_->ends(outline, place.segment - parts_->first_segment[curve]);
+  return static_cast<double>(from - parts_->pieces.layout().position(outline, 0)) / 2 + length * place.t / 2;
 }
 
-CurveStencil LimitCurve::stencil(const CurvePlace& sample, int order) const {
-  check_sample(sample, num_segments());
+CurveStencil LimitCurve::stencil(const CurvePlace& place, int order) const {
+  check_sample(place, num_segments());
   check_order(order);
-  PieceOfCurve place = parts_->place(sample);
+  PieceOfCurve piece = parts_->place(place);
   CurvePieceRows rows;
   CurveStencil result;
-  result.status = parts_->rows(place, order, rows);
+  result.status = parts_->rows(piece, order, rows);
   const int derivatives = std::min(order, rows.exists);
   std::vector<std::pair<Index, Index>> columns;  // by name
-  parts_->for_each_unknown(place, [&](Index column, Index name) { columns.push_back({name, column}); });
+  parts_->for_each_unknown(piece, [&](Index column, Index name) { columns.push_back({name, column}); });
   std::sort(columns.begin(), columns.end());
   for (const auto& [name, column] : columns)
     if (result.unknowns.empty() || result.unknowns.back() != name) result.unknowns.push_back(name);

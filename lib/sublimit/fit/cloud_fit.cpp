@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 namespace {
@@ -33,8 +33,8 @@ void check(const Cloud& cloud, const CloudFitOptions& o) {
   if (!(o.tangential > 0 && o.tangential <= 1))
     throw InvalidParameter("what is along the surface counts " + format_number(o.tangential) +
                            "; it must be > 0 and <= 1");
-  if (o.max_iterations < 0 || !(o.tolerance >= 0))
-    throw InvalidParameter("at most " + std::to_string(o.max_iterations) + " iterations to the tolerance " +
+  if (o.iterations < 0 || !(o.tolerance >= 0))
+    throw InvalidParameter("at most " + std::to_string(o.iterations) + " iterations to the tolerance " +
                            format_number(o.tolerance) + "; both must be >= 0");
   for (const double factor : o.schedule)
     if (!(factor >= 0 && std::isfinite(factor)))
@@ -137,7 +137,7 @@ CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& gu
   fit.iterations.push_back(iteration.measure(fit.foot_points, fit.points, factor(0)));
   tell();
   double tangential = options.tangential;
-  for (int k = 0; k < options.max_iterations && !fit.converged; ++k) {
+  for (int k = 0; k < options.iterations && !fit.converged; ++k) {
     const double f = factor(size_t(k));
     const double before = iteration.measure(fit.foot_points, fit.points, f).energy;
     const bool at_end = size_t(k) + 1 >= options.schedule.size();

@@ -42,8 +42,8 @@ struct CloudFitOptions {
   std::vector<double> schedule = {};
   /// Factor of the tangential part of distances, in (0, 1]; 1: distances from points instead of tangent planes.
   double tangential = 0.1;
-  Pins pins = {};  ///< control points with given positions
-  int max_iterations = 50;
+  Pins pins = {};           ///< control points with given positions
+  int iterations = 50;      ///< largest number of iterations
   double tolerance = 1e-6;  ///< stops when E decreases by less, relative to E, at the end of the schedule
   FitSolverOptions solver = {};
   /// Called after every iteration, if given: its number, 0 for the first guess, and its statistics.

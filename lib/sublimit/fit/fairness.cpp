@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/limit/detail/quadrature.h"
 
 namespace sublimit {

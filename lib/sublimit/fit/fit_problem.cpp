@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/fit/detail/fit_terms.h"
 

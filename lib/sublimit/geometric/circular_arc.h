@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A circular arc, or a straight segment, between two points with unit tangents. All formulas are in the points and the
-// tangents themselves: short and nearly straight arcs lose no digits, and there is no centre that runs to infinity.
+// Circular arcs and straight segments between two points with unit tangents. All formulas use the points and
+// tangents, not the centre, which may be at infinity: short and nearly straight arcs lose no digits.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 namespace sublimit {
 
-/// An end of an arc or of a segment; points of the plane have z = 0.
+/// A point with a unit tangent; points in the plane have z = 0.
 struct HermitePoint {
   Eigen::Vector3d position, tangent;
 };
 
-/// Evaluable at any x in [0, 1], the fraction of its length. Any turn up to, not including, the whole circle.
+/// An arc of less than a whole circle, parametrised by the fraction x of its length, 0 <= x <= 1.
 class CircularArc {
  public:
-  /// @param a, b  ends whose tangents make equal angles with the chord, up to rounding; they are kept bitwise
+  /// @param a, b  ends whose tangents make equal angles with the chord, up to rounding; stored unchanged
   CircularArc(const HermitePoint& a, const HermitePoint& b);
 
   const HermitePoint& start() const { return a_; }
   const HermitePoint& end() const { return b_; }
-  /// Position and unit tangent.
+  /// Returns position and unit tangent at x.
   HermitePoint at(double x) const;
-  /// 1/radius; in the plane negative where the arc turns right. 0 for a straight segment.
+  /// Returns 1/radius; in the plane negative if the arc turns right. 0 for a straight segment.
   double curvature() const;
-  /// Derivative of the tangent by length: towards the centre, 1/radius long; 0 for a straight segment.
+  /// Returns the derivative of the tangent by length: it points to the centre, with length 1/radius; 0 for a
+  /// straight segment.
   Eigen::Vector3d curvature_vector(double x) const;
   double turn() const { return 2 * half_turn_; }  ///< angle between the end tangents, in [0, 2 pi)
   double length() const;
@@ -40,7 +41,7 @@ class CircularArc {
   double width_, half_turn_, sine_;
 };
 
-/// The middle of the arc with these ends, its position and tangent as the scheme's step makes them.
+/// Returns position and tangent of the middle of the arc with these ends, as computed by a step of the scheme.
 HermitePoint middle_of_arc(const HermitePoint& a, const HermitePoint& b);
 
 }  // namespace sublimit

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/mesh/topology.h"
 
 namespace sublimit {

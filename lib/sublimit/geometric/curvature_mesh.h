@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Triangles whose vertices know normal, principal curvatures and directions: what surfaces through such data start
-// from.
+// Triangle meshes with normal, principal curvatures and principal directions at each vertex: input of surfaces
+// through such data.
 #include <span>
 #include <string>
 #include <vector>
@@ -14,36 +14,40 @@
 
 namespace sublimit {
 
+/// A mesh with data of second order.
 struct [[nodiscard]] CurvatureMesh {
-  std::vector<Index> triangles;      ///< vertices, three a triangle, counter-clockwise
-  std::vector<SurfacePoint> points;  ///< a vertex each
-  std::vector<bool> original = {};   ///< per vertex, whether it was given; empty: all
+  std::vector<Index> triangles;      ///< three vertices per triangle, counter-clockwise
+  std::vector<SurfacePoint> points;  ///< data of each vertex
+  std::vector<bool> original = {};   ///< per vertex: true if it was given, not computed; empty: all
 
   Index num_vertices() const { return static_cast<Index>(points.size()); }
   Index num_faces() const { return static_cast<Index>(triangles.size() / 3); }
 };
 
+/// Returns the faces as a view.
 inline MeshView view(const CurvatureMesh& mesh) {
   return {.num_vertices = mesh.num_vertices(), .face_vertices = mesh.triangles, .face_sizes = {}, .face_size = 3};
 }
 
-/// How far a direction may be from the tangent plane, in radians, and a length from 1; it is then made exact.
+/// Tolerances of `checked`: angle of a direction to the tangent plane, in radians, and deviation of a length
+/// from 1. Data within them are corrected.
 inline constexpr double direction_tolerance = 1e-6, unit_tolerance = 1e-6;
 
-/// The mesh with a target at each vertex. Positions are those of the targets. Quads are cut along the shorter diagonal
-/// of the targets' positions, between corners 0 and 2 where both are equally long.
+/// Returns a mesh with the data of targets, one at each vertex. Positions are those of the targets.
+/// Quadrilaterals are cut along the shorter diagonal, or between corners 0 and 2 if both are equally long.
 /// @throws InvalidMesh  a vertex without a target or with several, a target of no vertex; a target without normal or
 ///     curvature; numbers that are not finite; a normal or direction of length zero; a direction that is not in the
-///     tangent plane (the message tells the angle); what `checked` refuses
+///     tangent plane (the message has the angle); see also `checked`
 /// @throws UnsupportedTopology  a face of more than four corners
 CurvatureMesh curvature_mesh(const Mesh& mesh, std::span<const VertexTarget> targets);
 
-/// Returns the mesh with normals and directions of length 1 and at right angles; those that are so keep their bits.
+/// Returns the mesh with orthonormal normals and directions; those that are orthonormal already keep their
+/// bits.
 /// @throws InvalidMesh  data that are not finite, of other lengths, or not tangent, naming the vertex
 /// @throws UnsupportedTopology  edges or vertices that are not manifold, vertices without a face, naming them
 CurvatureMesh checked(CurvatureMesh mesh);
 
-/// Positions and triangles alone, to be written.
+/// Returns positions and triangles as a mesh, for writing.
 Mesh control_mesh(const CurvatureMesh& mesh);
 
 }  // namespace sublimit

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The edge cubic: a curve between two points with normals, which depends on nothing else, so that surfaces on both
-// sides of an edge have the same. The tangent at an end is the projection t of the chord D to the plane there, with the
-// length 2 |D|^2 / (|t| + |D|): that of the Hermite cubic which best follows a circular arc (of angle alpha between
-// its ends: 4 tan(alpha/4) of the radius), so that circles come out to 2.7e-4 of their radius at 90 degrees.
+// The edge cubic: a curve between two points with normals. It depends on nothing else, so that the surfaces on
+// both sides of an edge have the same boundary. The tangent at an end is the projection t of the chord D to the
+// plane there, with the length 2 |D|^2 / (|t| + |D|): that of the Hermite cubic which best follows a circular
+// arc (of angle alpha between its ends: 4 tan(alpha/4) of the radius), so that circles are approximated to
+// 2.7e-4 of their radius at 90 degrees.
 //
 // Everything is generic in the number type: double, 256-bit floats, jets (jet.h) of either.
 #include <Eigen/Core>
@@ -16,8 +17,8 @@
 
 namespace sublimit {
 
-/// Cubic curve from a to b, by the parameter t from 0 to 1; `to_a` = 1 - t and `to_b` = t are given both, since near an
-/// end the small one has digits that a difference would lose.
+/// Cubic curve from a to b. Its parameter t from 0 to 1 is given by `to_b` = t and `to_a` = 1 - t, since
+/// computing the smaller one as a difference would lose digits near an end.
 template <class T>
 struct EdgeCubic {
   Eigen::Vector3<T> a, b;                  ///< ends
@@ -33,7 +34,7 @@ struct EdgeCubic {
     return (b - a) * (T(6) * to_a * to_b) + tangent_a * (to_a * (to_a - two * to_b)) +
            tangent_b * (to_b * (to_b - two * to_a));
   }
-  /// Bezier points.
+  /// Returns the Bezier points.
   std::array<Eigen::Vector3<T>, 4> control_points() const {
     const T three(3);
     return {a, a + tangent_a / three, b - tangent_b / three, b};
@@ -44,7 +45,7 @@ struct EdgeCubic {
   }
 };
 
-/// x without its part along `direction`; 0 where only rounding is left.
+/// Returns x without its component along `direction`; 0 if the rest is rounding.
 template <class T>
 Eigen::Vector3<T> part_across(const Eigen::Vector3<T>& x, const Eigen::Vector3<T>& direction) {
   const Eigen::Vector3<T> rest = x - direction * (x.dot(direction) / direction.dot(direction));
@@ -54,8 +55,8 @@ Eigen::Vector3<T> part_across(const Eigen::Vector3<T>& x, const Eigen::Vector3<T
   return Eigen::Vector3<T>::Zero();
 }
 
-/// Derivative of the edge cubic at an end.
-/// @param chord   to the other end, or from it: the tangent has its direction
+/// Returns the derivative of the edge cubic at an end.
+/// @param chord   vector to the other end, or from it; the tangent points along it
 /// @param normal  of any length > 0, on any side
 /// @return  not finite if the chord runs along the normal or has length 0
 template <class T>
@@ -66,6 +67,7 @@ Eigen::Vector3<T> edge_tangent(const Eigen::Vector3<T>& chord, const Eigen::Vect
   return along * (T(2) * chord2 / (length * (length + sqrt(chord2))));
 }
 
+/// Returns the edge cubic of two points with normals.
 template <class T>
 EdgeCubic<T> edge_cubic(const Eigen::Vector3<T>& a, const Eigen::Vector3<T>& normal_a, const Eigen::Vector3<T>& b,
                         const Eigen::Vector3<T>& normal_b) {

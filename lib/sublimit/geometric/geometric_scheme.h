@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Schemes that are not linear: no masks, no matrix, but a step from data to data and, if it is known, the limit in
-// closed form. `Data` is what the scheme refines: a ControlPolygon with tangents for curves, for surfaces a
-// CurvatureMesh, or a NormalMesh where the surface is known and there are no steps.
+// Nonlinear schemes: without masks and matrices, with a step from data to data and, if known, the limit in
+// closed form. `Data` is the type that the scheme refines: a ControlPolygon with tangents for curves, a
+// CurvatureMesh for surfaces, or a NormalMesh for surfaces that are constructed directly, without steps.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,49 +17,53 @@
 
 namespace sublimit {
 
-/// Properties that a geometric scheme is said to have. No result depends on them; each has its law in the tests.
+/// Claimed properties of a geometric scheme. No result depends on them; tests check each.
 struct GeometricClaims {
-  std::optional<int> regular = {};  ///< the limit is G^regular; nothing if that is not claimed
-  bool interpolates = false;        ///< old data stay, bitwise
-  std::string reproduces;           ///< in words
-  std::string limit;                ///< in words
+  std::optional<int> regular = {};  ///< the limit is G^regular; nothing: no claim
+  bool interpolates = false;        ///< a step keeps the bits of old data
+  std::string reproduces;           ///< shapes that are reproduced, in words
+  std::string limit;                ///< description of the limit, in words
   std::string exponent;             ///< Hoelder exponent of the limit by arc length, in words
 };
 
 /// A place on the limit of a segment.
 struct SegmentPlace {
   Eigen::Vector3d position;
-  Eigen::Vector3d tangent;    ///< of length 1
+  Eigen::Vector3d tangent;    ///< unit length
   Eigen::Vector3d curvature;  ///< derivative of the tangent by length
 };
-/// The limit of a segment over t in [0, 1]; where pieces meet inside, that of the piece before or behind.
+/// The limit of a segment over t in [0, 1]; where pieces meet inside, of the piece before t if `before`, else
+/// behind.
 using SegmentCurve = std::function<SegmentPlace(double t, bool before)>;
 
 class PlacedSurface;
 
+/// A nonlinear scheme.
 template <class Data>
 struct GeometricScheme {
   std::string name;
   std::string source;  ///< author, year, title
-  /// Data fit for `refine` and `limit`.
-  /// @throws InvalidMesh, UnsupportedTopology  what the scheme cannot take, where, and what would be right
+  /// Returns data checked for `refine` and `limit`.
+  /// @throws InvalidMesh, UnsupportedTopology  unsuitable data; says what, where, and what would be right
   std::function<Data(Data)> checked;
-  /// One step, of checked or refined data; empty where the surface is made at once, not by steps.
+  /// Returns checked or refined data after one step; empty for surfaces that are constructed without steps.
   std::function<Data(const Data&)> refine;
-  /// Data of level `levels`, on the exact limit of checked data; empty where the limit is not known in closed form.
+  /// Returns data of a level on the exact limit of checked data; empty if the limit is not known in closed
+  /// form.
   std::function<Data(const Data&, int levels)> limit = {};
-  /// Curves with a known limit: the exact limit of checked data anywhere, of each curve its segments in order.
+  /// Curves with a known limit: returns the exact limit of checked data as the segments of each curve, in
+  /// order.
   std::function<std::vector<std::vector<SegmentCurve>>(const Data&)> segments = {};
-  /// Surfaces with a known limit: the exact limit of checked data anywhere.
+  /// Surfaces with a known limit: returns the exact limit of checked data.
   std::function<std::shared_ptr<const PlacedSurface>(const Data&)> surface = {};
-  /// Notes worth telling about checked data: where the scheme fell back on another rule.
+  /// Returns notes about checked data: where the scheme uses a fallback rule.
   std::function<std::vector<std::string>(const Data&)> notes;
   GeometricClaims claims;
   std::vector<OptionInfo> options = {};
 };
 using GeometricCurveScheme = GeometricScheme<ControlPolygon>;
 
-/// Data of level `levels`.
+/// Returns the data of level `levels`.
 /// @param progress  called before each level with its number, if given
 template <class Data>
 [[nodiscard]] Data refine(const GeometricScheme<Data>& scheme, const Data& data, int levels,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The registry of schemes without a matrix: one line a scheme, a list for each kind of data.
+// The registry of schemes without a matrix: a list for each kind of data, with one line per scheme.
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,7 +20,7 @@ struct GeometricSchemeEntry {
   GeometricScheme<Data> (*make)(const SchemeOptions&);
 };
 
-/// Specialised for every kind of data.
+/// The list of schemes, and the kind of schemes, for a type of data. Specialised for every type.
 template <class Data>
 inline constexpr void* geometric_registry = nullptr;
 template <class Data>
@@ -64,9 +64,10 @@ template <class Data = ControlPolygon>
   return std::nullopt;
 }
 
-/// A scheme by name: `geometric_scheme("hermite-incentre")`, `geometric_scheme<CurvatureMesh>("torus-pieces")`.
-/// @throws InvalidOption  no scheme for this kind of data has this name: says which are nearest, or what makes it; an
-///                        unknown option, or a value outside its range
+/// Returns a scheme by name: `geometric_scheme("hermite-incentre")`,
+/// `geometric_scheme<CurvatureMesh>("torus-pieces")`.
+/// @throws InvalidOption  no scheme for this kind of data has this name (names the nearest ones, or the
+///                        function that makes it); an unknown option, or a value outside its range
 template <class Data = ControlPolygon>
 [[nodiscard]] GeometricScheme<Data> geometric_scheme(const std::string& name, const SchemeOptions& options = {}) {
   if (std::optional<GeometricScheme<Data>> found = find_geometric_scheme<Data>(name, options)) return *std::move(found);

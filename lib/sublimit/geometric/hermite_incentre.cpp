@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/geometric/hermite_polygon.h"
 #include "sublimit/geometric/incentre_input.h"
 

@@ -10,15 +10,16 @@
 // twice and beta/2 twice, and so has everything made from them: points of one circle each. The limit of a segment is
 // the biarc through its incentre. It is G^1, the curvature is constant on each arc; circles are reproduced.
 //
-// Segment that are not convex have another rule: incentre_segment.h.
+// Segments that are not convex have another rule: incentre_segment.h.
 #include "sublimit/geometric/geometric_scheme.h"
 #include "sublimit/geometric/incentre_segment.h"
 
 namespace sublimit {
 
-/// The exact limit of a checked polygon: of each curve, its segments in order.
+/// Returns the exact limit of a checked polygon: the segments of each curve, in order.
 std::vector<std::vector<SegmentLimit>> incentre_limit(const ControlPolygon& polygon);
 
+/// Returns the scheme. It has no options.
 GeometricCurveScheme hermite_incentre(const SchemeOptions&);
 
 }  // namespace sublimit

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Polygons of points with tangents, segment by segment.
+// Access to polygons of points with tangents by segment.
 #include <cstdint>
 #include <limits>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/geometric/circular_arc.h"
 #include "sublimit/mesh/control_polygon.h"
 
 namespace sublimit {
 
-/// Point i with its tangent; of the plane with z = 0.
+/// Returns point i with its tangent; z = 0 for polygons in the plane.
 HermitePoint hermite_point(const ControlPolygon& polygon, Index i);
 void set_hermite_point(ControlPolygon& polygon, Index i, const HermitePoint& p);
 
+/// Returns the number of segments of a curve.
 Index num_segments(const ControlPolygon::Curve& curve);
 
 /// Calls `body` with the ends of each segment of a curve.
@@ -24,9 +25,9 @@ void for_each_segment(const ControlPolygon& polygon, const ControlPolygon::Curve
     body(hermite_point(polygon, curve.points[i]), hermite_point(polygon, curve.points[(i + 1) % curve.points.size()]));
 }
 
-/// A polygon with `pieces` points for each segment of `parent`, made by at(curve, segment, j), j = 0 the segment's
-/// first point.
-/// @throws ResourceError  more points than indices
+/// Returns a polygon with `pieces` points for each segment of `parent`.
+/// @param at  at(curve, segment, j) returns point j of a segment; j = 0 is its first point
+/// @throws ResourceError  more points than 32-bit indices count
 template <class At>
 ControlPolygon with_points_on_segments(const ControlPolygon& parent, Index pieces, const At& at) {
   std::int64_t count = 0;

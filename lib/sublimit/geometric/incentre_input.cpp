@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/geometric/hermite_polygon.h"
 
 namespace sublimit {

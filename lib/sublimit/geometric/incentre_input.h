@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the Hermite incentre scheme takes: finite points in the plane or in space with tangents of length 1, in curves
-// of two points or more whose segments have a length.
+// Input check of the Hermite incentre scheme. It needs finite points in the plane or in space with unit
+// tangents, in curves of at least two points without segments of length 0.
 #include "sublimit/mesh/control_polygon.h"
 
 namespace sublimit {
 
-/// The polygon with its tangents scaled to units.
-/// @throws InvalidMesh, UnsupportedTopology  what is wrong, in which line of the file if there is one
+/// Returns the polygon with unit tangents.
+/// @throws InvalidMesh, UnsupportedTopology  unsuitable input; names the line of the file if there is one
 ControlPolygon checked_for_incentres(ControlPolygon polygon);
 
 }  // namespace sublimit

@@ -8,31 +8,32 @@
 //   G_i(b)    the edge cubic from corner i to the point e(s) with normal N_e(s), s = b_k/(b_j + b_k), at 1 - b_i
 //   S         sum of beta_i G_i, beta_i = b_j b_k / (b_0 b_1 + b_1 b_2 + b_2 b_0)
 //
-// On the side opposite to corner i, S is e and touches the plane of N_e, which the edge alone decides: neighbours meet
-// G^1. At corner i, S is differentiable, its derivatives being the tangents of both edges, but second derivatives
-// depend on the direction from which they are approached.
+// On the side opposite to corner i, S equals e and is tangent to the plane with normal N_e, which depends only
+// on the edge: neighbours join G^1. At corner i, S is differentiable, its derivatives being the tangents of
+// both edges, but second derivatives depend on the direction from which they are approached.
 #include "sublimit/geometric/geometric_scheme.h"
 #include "sublimit/geometric/normal_mesh.h"
 #include "sublimit/geometric/normal_triangle.h"
 
 namespace sublimit {
 
+/// The patch of a triangle.
 template <class T>
 class NielsonPatch {
  public:
-  /// @param normals  of length 1
-  /// @pre  points that differ, no normal along an edge
+  /// @param normals  unit normals
+  /// @pre  points differ, no normal is parallel to an edge
   NielsonPatch(const std::array<Eigen::Vector3<T>, 3>& points, const std::array<Eigen::Vector3<T>, 3>& normals)
       : corners_(points, normals) {}
 
   const TriangleCorners<T>& corners() const { return corners_; }
 
-  /// Position, derivatives per unit of u and v, and normal at u, v >= 0, u + v <= 1.
+  /// Returns position, derivatives per unit of u and v, and normal at u, v >= 0, u + v <= 1.
   ///
-  /// Status: `crease` on sides, from order 1 on, where a neighbour has other derivatives; `unbounded_second` at corners
-  /// if second derivatives are asked for; `undefined_normal` where first derivatives are parallel or do not exist;
-  /// `pole`, without a position, where a curve inside has no tangent.
-  /// @param order  derivatives that are wanted, 0 to 2
+  /// Status: `crease` on sides for order >= 1, since a neighbour has other derivatives; `unbounded_second` at
+  /// corners for order 2; `undefined_normal` if first derivatives are parallel or do not exist; `pole`, without
+  /// a position, if a curve inside has no tangent.
+  /// @param order  highest derivative, 0 to 2
   /// @note  Exact up to rounding: eps of the longest edge, of second derivatives eps / r at the distance r of a corner.
   PatchPoint<T> at(const T& u, const T& v, int order = 2) const {
     const TrianglePlace<T> place(u, v);
@@ -68,7 +69,8 @@ class NielsonPatch {
     return S;
   }
 
-  /// The derivative towards a place is linear in it, and along the edges that of the edge cubics.
+  /// Returns the point at a corner, where the derivative is linear in the direction, and along edges that of
+  /// the edge cubics.
   PatchPoint<T> at_corner(const TrianglePlace<T>& place, int order) const {
     const std::array<Eigen::Vector3<T>, 3>& tangent = corners_.tangent[place.corner];
     const Eigen::Vector3<T> du = tangent[1] - tangent[0], dv = tangent[2] - tangent[0];
@@ -79,7 +81,7 @@ class NielsonPatch {
     return point;
   }
 
-  /// Where N_e does not exist there is the side still.
+  /// Returns the point on a side where N_e does not exist: that of the edge cubic.
   PatchPoint<T> on_side(const std::array<Eigen::Vector3<T>, 3>& x, const TrianglePlace<T>& place, int order) const {
     const int j = (place.opposite + 1) % 3, k = (place.opposite + 2) % 3;
     PatchPoint<T> point;
@@ -91,7 +93,7 @@ class NielsonPatch {
   TriangleCorners<T> corners_;
 };
 
-/// Surfaces of such patches, one on each triangle.
+/// Returns the scheme of surfaces with such a patch on each triangle.
 GeometricNormalScheme nielson(const SchemeOptions& options);
 
 }  // namespace sublimit

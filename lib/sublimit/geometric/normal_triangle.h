@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What triangle patches through points with normals share: the three corners with the tangents of their edge cubics,
-// places, and what there is at a place. Parameters are as everywhere: (0,0), (1,0), (0,1) at corners 0, 1, 2.
+// Common parts of triangle patches through points with normals: corners with the tangents of their edge cubics,
+// places, and points with derivatives. Corners 0, 1, 2 have the parameters (0,0), (1,0), (0,1).
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -15,17 +15,17 @@
 
 namespace sublimit {
 
-/// Three points with normals. Inside, lengths are multiples of a power of two near that of the longest edge, so that no
-/// square leaves the range of numbers.
+/// Three points with normals. Lengths are stored in units of a power of two near the length of the longest
+/// edge, so that squares neither overflow nor underflow.
 template <class T>
 struct TriangleCorners {
   std::array<Eigen::Vector3<T>, 3> points;
-  std::array<Eigen::Vector3<T>, 3> normals;                 ///< of length 1
-  T unit;                                                   ///< that power of two
-  std::array<std::array<Eigen::Vector3<T>, 3>, 3> tangent;  ///< [i][k]: of the edge cubic from corner i to k at i
+  std::array<Eigen::Vector3<T>, 3> normals;                 ///< unit normals
+  T unit;                                                   ///< the power of two
+  std::array<std::array<Eigen::Vector3<T>, 3>, 3> tangent;  ///< [i][k]: at i, of the edge cubic from i to k
 
-  /// @param normals  of length 1
-  /// @pre  points that differ, no normal along an edge
+  /// @param normals  unit normals
+  /// @pre  points differ, no normal is parallel to an edge
   TriangleCorners(const std::array<Eigen::Vector3<T>, 3>& points, const std::array<Eigen::Vector3<T>, 3>& normals)
       : points(points), normals(normals), unit(1) {
     using std::ilogb;
@@ -43,25 +43,26 @@ struct TriangleCorners {
     }
   }
 
-  /// The points with corner `origin` at 0, in units.
+  /// Returns the points relative to corner `origin`, in units.
   std::array<Eigen::Vector3<T>, 3> seen_from(int origin) const {
     std::array<Eigen::Vector3<T>, 3> x;
     for (int i = 0; i < 3; ++i) x[i] = (points[i] - points[origin]) / unit;
     return x;
   }
-  /// The edge cubic between two corners, whose points are x.
+  /// Returns the edge cubic between two corners.
+  /// @param x  result of `seen_from`
   EdgeCubic<T> edge(const std::array<Eigen::Vector3<T>, 3>& x, int from, int to) const {
     return {x[from], x[to], tangent[from][to], -tangent[to][from]};
   }
 };
 
-/// A place of a triangle: barycentric coordinates, of which those that are 0 up to rounding are 0.
+/// A place of a triangle in barycentric coordinates; those that are 0 up to rounding are set to 0.
 template <class T>
 struct TrianglePlace {
   std::array<T, 3> b;
-  int nearest = 0;    ///< corner of the largest
-  int corner = -1;    ///< the corner that the place is
-  int opposite = -1;  ///< the corner opposite to the side that the place is on; -1 inside and at corners
+  int nearest = 0;    ///< corner with the largest coordinate
+  int corner = -1;    ///< the corner that the place is at; -1: none
+  int opposite = -1;  ///< corner opposite to the side that the place is on; -1 inside and at corners
 
   TrianglePlace(const T& u, const T& v) : b{T(1) - u - v, u, v} {
     const T eps = std::numeric_limits<T>::epsilon();
@@ -73,7 +74,7 @@ struct TrianglePlace {
     if (b[nearest] >= T(1) || (b[1] == T(0) && b[2] == T(0))) corner = nearest;
     if (corner >= 0) opposite = -1;
   }
-  /// With derivatives by u and v.
+  /// Returns the coordinates with their derivatives by u and v.
   std::array<Jet<T>, 3> jets() const {
     return {Jet<T>(b[0], T(-1), T(-1)), Jet<T>(b[1], T(1), T(0)), Jet<T>(b[2], T(0), T(1))};
   }
@@ -84,11 +85,11 @@ template <class T>
 struct PatchPoint {
   using Vector = Eigen::Vector3<T>;
   LimitStatus status = LimitStatus::regular;
-  int order = 0;  ///< derivatives that there are, of those asked for
+  int order = 0;  ///< highest derivative that exists, at most the requested one
   Vector position = Vector::Zero();
   Vector du = Vector::Zero(), dv = Vector::Zero();                          ///< order 1
   Vector duu = Vector::Zero(), duv = Vector::Zero(), dvv = Vector::Zero();  ///< order 2
-  Vector normal = Vector::Zero();  ///< of length 1, along du x dv; where order >= 1 was asked for
+  Vector normal = Vector::Zero();  ///< unit length, along du x dv; for requested orders >= 1
 };
 
 template <class T>
@@ -97,7 +98,7 @@ bool is_finite(const Eigen::Vector3<T>& x) {
   return zero[0] == T(0) && zero[1] == T(0) && zero[2] == T(0);
 }
 
-/// Fills in the normal of a point with first derivatives; `undefined_normal` where they are parallel.
+/// Sets the normal of a point with first derivatives, or its status to `undefined_normal` if they are parallel.
 template <class T>
 void set_normal(PatchPoint<T>& point) {
   using std::sqrt;
@@ -117,9 +118,10 @@ void set_normal(PatchPoint<T>& point) {
   point.status = LimitStatus::undefined_normal;
 }
 
-/// A patch evaluated, whose points are corner `origin` plus `x` units. Sides are `crease`, since derivatives are those
-/// of this side.
-/// @param order  asked for
+/// Returns the point of a patch from its position with derivatives. On sides the status is `crease`, since
+/// derivatives are one-sided.
+/// @param x      position relative to corner `origin`, in units
+/// @param order  requested order of derivatives
 template <class T>
 PatchPoint<T> patch_point(const TriangleCorners<T>& corners, const TrianglePlace<T>& place,
                           const Eigen::Vector3<Jet<T>>& x, int origin, int order) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Numbers that carry their derivatives by two variables u and v, up to the second: a formula evaluated on jets of its
-// variables gives its exact derivatives by the chain rule, without another formula that could disagree with it.
+// Numbers with their first and second derivatives by two variables u and v (automatic differentiation). A
+// formula evaluated on jets of its variables gives its exact derivatives, without a second formula that could
+// disagree.
 // Source: Griewank, Walther, "Evaluating Derivatives", 2nd edition, SIAM 2008 (forward mode).
 #include <Eigen/Core>
 
@@ -10,6 +11,7 @@
 
 namespace sublimit {
 
+/// A number with derivatives.
 template <class T>
 struct Jet {
   T value = T(0), u = T(0), v = T(0), uu = T(0), uv = T(0), vv = T(0);

@@ -7,31 +7,33 @@
 //   row 0    the edge cubic e (edge_cubic.h), raised to degree 4: q_0 .. q_4
 //   row 1    r_0 = (corner + first points of both its edges)/3, which puts it into the plane there; r_3 likewise. The
 //            derivative across, D(s) = 4 sum of B_m^3(s) (r_m - (q_m + q_{m+1})/2), is k(s) a(s) + h(s) e'(s) with
-//            linear k, h, a and a = N x e' (of length 1) at the ends (Chiyokura, Kimura 1983, "Design of solids with
-//            free-form surfaces"): so the plane along the edge is that of e' and a, which the edge alone decides
+//            linear k, h, a and a = N x e' (unit length) at the ends (Chiyokura, Kimura 1983, "Design of
+//            solids with free-form surfaces"): the tangent plane along the edge is spanned by e' and a, and
+//            depends only on the edge
 //   spokes   s_1 = r_0, s_2 = (s_1 + points r beside it of both pieces)/3: C^1 across
 //   free     one point of each piece. Our rule: spokes are cubics, c - 4 s_1 + 6 s_2 - 4 s_3 + C = 0. With C^1,
 //            C = mean of the s_3 and 3 s_3 = s_2 + inner points of both pieces, that leaves one solution.
 //
-// Neighbours meet G^1, pieces C^1. Polynomial, but further from round surfaces than nielson.h: that is what the
-// polynomials cost.
+// Neighbours join G^1, pieces C^1. The surface is polynomial, but approximates round surfaces less well than
+// nielson.h.
 #include "sublimit/geometric/geometric_scheme.h"
 #include "sublimit/geometric/normal_mesh.h"
 #include "sublimit/geometric/normal_triangle.h"
 
 namespace sublimit {
 
-/// Where control point (j, k) of a quartic Bezier triangle is in its list: j fastest, then k; the point belongs to the
-/// powers (4 - j - k, j, k) of the barycentric coordinates.
+/// Returns the index of control point (j, k) of a quartic Bezier triangle: j fastest, then k. The point belongs
+/// to the powers (4 - j - k, j, k) of the barycentric coordinates.
 constexpr int quartic_index(int j, int k) { return 5 * k - k * (k - 1) / 2 + j; }
 
+/// The patch of a triangle.
 template <class T>
 class PiperPatch {
  public:
   using Net = std::array<Eigen::Vector3<T>, 15>;
 
-  /// @param normals  of length 1
-  /// @pre  points that differ, no normal along an edge
+  /// @param normals  unit normals
+  /// @pre  points differ, no normal is parallel to an edge
   PiperPatch(const std::array<Eigen::Vector3<T>, 3>& points, const std::array<Eigen::Vector3<T>, 3>& normals)
       : corners_(points, normals) {
     const std::array<Eigen::Vector3<T>, 3> x = corners_.seen_from(0);
@@ -41,8 +43,8 @@ class PiperPatch {
 
   const TriangleCorners<T>& corners() const { return corners_; }
 
-  /// Control points of the three pieces, see `quartic_index`; corners 0, 1, 2 of piece m are corners m and m + 1 of the
-  /// triangle and its centre, whose parameters are u = v = 1/3.
+  /// Returns the control points of the three pieces, indexed by `quartic_index`. Corners 0, 1, 2 of piece m are
+  /// corners m and m + 1 of the triangle and its centre u = v = 1/3.
   std::array<Net, 3> control_points() const {
     std::array<Net, 3> nets = nets_;
     for (int m = 0; m < 3; ++m)
@@ -52,12 +54,12 @@ class PiperPatch {
     return nets;
   }
 
-  /// Position, derivatives per unit of u and v, and normal at u, v >= 0, u + v <= 1.
+  /// Returns position, derivatives per unit of u and v, and normal at u, v >= 0, u + v <= 1.
   ///
-  /// Status: `crease` on sides, from order 1 on, where a neighbour has other derivatives, and on spokes if second
-  /// derivatives are asked for, which are those of one piece; not at the centre, where three pieces that meet C^1 have
-  /// common second derivatives too. `undefined_normal` where first derivatives are parallel.
-  /// @param order  derivatives that are wanted, 0 to 2
+  /// Status: `crease` on sides for order >= 1, since a neighbour has other derivatives, and on spokes for order
+  /// 2, since second derivatives are those of one piece. Not at the centre, where three pieces that join C^1
+  /// have common second derivatives too. `undefined_normal` if first derivatives are parallel.
+  /// @param order  highest derivative, 0 to 2
   PatchPoint<T> at(const T& u, const T& v, int order = 2) const {
     const TrianglePlace<T> place(u, v);
     int least = 0;  // the corner that the piece does not have
@@ -92,7 +94,7 @@ class PiperPatch {
     return p[0];
   }
 
-  /// Rows 0 and 1 of the piece at an edge, but the ends of row 1 that lie on spokes.
+  /// Sets rows 0 and 1 of the piece at an edge.
   void set_side(const std::array<Eigen::Vector3<T>, 3>& x, int m) {
     using Vector = Eigen::Vector3<T>;
     const int n = (m + 1) % 3, o = (m + 2) % 3;
@@ -155,10 +157,10 @@ class PiperPatch {
   }
 
   TriangleCorners<T> corners_;
-  std::array<Net, 3> nets_;  ///< seen from corner 0, in units
+  std::array<Net, 3> nets_;  ///< relative to corner 0, in units
 };
 
-/// Surfaces of such patches, one on each triangle.
+/// Returns the scheme of surfaces with such a patch on each triangle.
 GeometricNormalScheme piper(const SchemeOptions& options);
 
 }  // namespace sublimit

@@ -7,8 +7,8 @@
 #include <array>
 #include <numeric>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/mesh/topology.h"
 
 namespace sublimit {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Fewer points where a surface is nearly flat: the refined points of least curvature are merged into a neighbour.
+// Mesh reduction where a surface is nearly flat: refined points of least curvature are merged into a neighbour.
 #include "sublimit/geometric/curvature_mesh.h"
 
 namespace sublimit {
 
-/// A mesh with `count` vertices, or as few as possible above that. Vertices go in the order of k1^2 + k2^2, the least
-/// one first, each into the neighbour for which the new triangles come nearest to the vertices' normals. Given points
-/// (`original`) and borders stay, and so does the type of the surface; no triangle turns from the normals of its
-/// corners by more than 60 degrees unless one around the point did before. Vertices keep their order and their data
-/// their bits.
-/// @param mesh  checked or refined
+/// Returns a mesh reduced to `count` vertices, or as few as possible above that. Vertices are removed by
+/// ascending k1^2 + k2^2; each is merged into the neighbour for which the new triangles agree best with the
+/// normals of the vertices. Given points (`original`), borders, and the topological type are preserved. No
+/// triangle deviates from the normals of its corners by more than 60 degrees unless one around the point did
+/// before. Remaining vertices keep their order and the bits of their data.
+/// @param mesh  a checked or refined mesh
 /// @throws InvalidParameter  count is negative
 CurvatureMesh thinned(const CurvatureMesh& mesh, Index count);
 

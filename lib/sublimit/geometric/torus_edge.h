@@ -7,14 +7,16 @@
 
 namespace sublimit {
 
+/// A new point.
 struct EdgePoint {
   SurfacePoint point;
-  bool fell_back = false;  ///< no torus piece fits: the middle of the chord, flat
+  bool fell_back = false;  ///< true if no torus piece fits: the point is the middle of the chord, with curvatures 0
 };
 
-/// @param a, b      the ends; exchanging them changes nothing but rounding
-/// @param opposite  the corners opposite to the edge in its triangles. Of torus pieces that suit both ends alike those
-///                  count more that suit these; and their normals tell the side where the ends' normals cancel.
+/// Returns the new point of an edge.
+/// @param a, b      the ends; exchanging them changes the result only by rounding
+/// @param opposite  the corners opposite to the edge in its triangles. Torus pieces that fit them get larger
+///                  weights; if the normals of the ends cancel, theirs decide on the side
 EdgePoint torus_edge(const SurfacePoint& a, const SurfacePoint& b, std::span<const SurfacePoint* const> opposite);
 
 }  // namespace sublimit

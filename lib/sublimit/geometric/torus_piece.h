@@ -1,49 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The local surface of torus pieces: a torus, sphere, cylinder or plane through a point with given normal, principal
-// curvatures and directions.
+// Local surfaces of the scheme of torus pieces: a torus, sphere, cylinder or plane through a point with given
+// normal, principal curvatures and directions.
 //
-// A circle of curvature k1 (the tube) leaves the point along e1, bending to n; it is carried around by the motion whose
-// path through the point leaves along e2 with curvature vector kappa = k2 n + g e1. The geodesic curvature g of that
-// path is free: it says where on the torus the point lies. g = 0 is an equator, outer (k1 k2 > 0, |k1| >= |k2|) or
-// inner (k1 k2 < 0); k2 = 0 with g = 1/R is the top circle; kappa = 0 is a cylinder; k1 = k2 is a sphere, whatever g.
-// Nothing is divided by a curvature: with arcs written as sin(k s)/k and (1 - cos(k s))/k all cases are one formula,
-// continuous in k1, k2 and g.
+// A circle of curvature k1 (the tube) leaves the point along e1, curving towards n. It is moved around such
+// that the path of the point leaves along e2 with curvature vector kappa = k2 n + g e1. The geodesic curvature
+// g of this path is free: it determines the latitude of the point on the torus. g = 0 is an equator, outer (k1
+// k2 > 0, |k1| >= |k2|) or inner (k1 k2 < 0); k2 = 0 with g = 1/R is the top circle; kappa = 0 is a cylinder;
+// k1 = k2 is a sphere, whatever g. No formula divides by a curvature: with arcs written as sin(k s)/k and (1 -
+// cos(k s))/k all cases are one formula, continuous in k1, k2 and g.
 #include <cmath>
 
 #include "sublimit/geometric/surface_point.h"
 
 namespace sublimit {
 
-/// sin(x)/x
+/// Returns sin(x)/x.
 inline double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
 
+/// A torus through a point.
 class TorusPiece {
  public:
-  /// @param e1, n   of length 1 and at right angles
-  /// @param g       per unit of length, any sign
+  /// @param e1, n   orthonormal: direction of k1, and normal
+  /// @param g       geodesic curvature, 1/length, any sign
   TorusPiece(const Eigen::Vector3d& origin, const Eigen::Vector3d& e1, const Eigen::Vector3d& n, double k1, double k2,
              double g);
 
-  /// Along the tube by length u, and around by the motion v, which is length at the origin; w off along the normal.
+  /// Length u along the tube, motion v around the axis (length at the origin), and height w along the normal.
   struct Coordinates {
     double u = 0, v = 0, w = 0;
   };
-  /// The principal frame at a place of the surface.
+  /// The principal frame at a point of the surface.
   struct Frame {
     Eigen::Vector3d position, e1, e2, n;
-    double k1, k2;  ///< of e1, e2; k2 is not finite on the axis of a torus
+    double k1, k2;  ///< curvatures along e1, e2; k2 is not finite on the axis of a torus
     double speed;   ///< length along e2 by v: the metric is du^2 + speed^2 dv^2
 
     SurfacePoint point() const { return {position, n, k1, k2, e1}; }
   };
+  /// Returns the frame at (u, v).
   Frame at(double u, double v) const;
 
-  /// The place whose normal passes through x: the nearest one, if x lies on the origin's side of the axis and of the
-  /// tube's centre. Closed form. |k1 u| <= pi, and v less than once around.
+  /// Returns the foot point of x, in closed form: the nearest point, if x lies on the origin's side of the axis
+  /// and of the centre of the tube. |k1 u| <= pi, and v is less than once around.
   Coordinates foot(const Eigen::Vector3d& x) const;
 
-  /// From 1 at the origin to 0 half way round the tube or the axis.
+  /// Returns a factor from 1 at the origin to 0 half way around the tube or the axis.
   double nearness(const Coordinates& place) const;
 
   double geodesic() const { return g_; }

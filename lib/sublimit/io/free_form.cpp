@@ -6,10 +6,10 @@
 #include <limits>
 #include <optional>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/free_form_checks.h"
 #include "sublimit/io/detail/free_form_counts.h"
 #include "sublimit/io/detail/obj_indices.h"

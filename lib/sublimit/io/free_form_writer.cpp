@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/free_form_counts.h"
 #include "sublimit/io/detail/obj_keywords.h"
 #include "sublimit/io/free_form.h"

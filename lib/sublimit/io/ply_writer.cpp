@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <cstring>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/ply.h"
 #include "sublimit/io/detail/writer_parts.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/polygon_files.h"
 #include "sublimit/io/detail/text_scanner.h"
 

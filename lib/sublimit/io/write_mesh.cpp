@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/ply.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/limit/detail/why_outside.h"
 
 namespace sublimit {

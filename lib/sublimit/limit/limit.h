@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "sublimit/limit/limit_status.h"
-#include "sublimit/limit/no_limit.h"
 #include "sublimit/scheme/any_scheme.h"
 #include "sublimit/scheme/refine.h"
 

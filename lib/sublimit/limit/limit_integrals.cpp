@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/found_once.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/limit/detail/closed_surface.h"

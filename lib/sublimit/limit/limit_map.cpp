@@ -7,14 +7,14 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/detail/huge_pages.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/huge_pages.h"
 #include "sublimit/limit/detail/derivative_order.h"
 #include "sublimit/limit/detail/limit_masks.h"
 #include "sublimit/limit/detail/limit_patches.h"
 #include "sublimit/limit/limit_surface.h"
-#include "sublimit/scheme/check_scheme.h"
+#include "sublimit/scheme/detail/check_scheme.h"
 #include "sublimit/scheme/detail/made_by.h"
 
 namespace sublimit {
@@ -53,11 +53,11 @@ LimitMap::Parts::Found LimitMap::Parts::find(const Target& at, int order) const 
   }
 }
 
-LimitMap::Parts::Found LimitMap::Parts::find(const Place& sample, int order, KnownRows* known) const {
-  const Target at = target(sample);
+LimitMap::Parts::Found LimitMap::Parts::find(const Place& place, int order, KnownRows* known) const {
+  const Target at = target(place);
   if (!known || !known->pieces) return find(at, order);
   const Pieces& all = *known->pieces;
-  const Index n = number(sample, at);
+  const Index n = number(place, at);
   std::vector<Index> vertices(all.vertices.begin() + all.first[n], all.vertices.begin() + all.first[n + 1]);
   try {
     return find(at, order, *all.types[n], std::move(vertices), known);
@@ -195,10 +195,10 @@ std::unique_ptr<BoundSource> LimitMap::bound(const Points& points) const& {
   return std::make_unique<LimitSurface>(*this, points);
 }
 
-LimitStencil LimitMap::stencil(const Place& sample, int order) const {
+LimitStencil LimitMap::stencil(const Place& place, int order) const {
   check_order(order);
-  check_inside(addresses(), sample);
-  return parts_->stencil(parts_->find(sample, order));
+  check_inside(addresses(), place);
+  return parts_->stencil(parts_->find(place, order));
 }
 
 void LimitMap::prepare() const { parts_->pieces(); }
@@ -252,16 +252,16 @@ bool LimitMap::Parts::evaluate_plain_row(const Points& points, const Found& foun
   return true;
 }
 
-void LimitMap::Parts::evaluate_row(const Points& points, const Place& sample, int order, bool normals,
-                                   LimitSamples& out, std::int64_t i, KnownRows* known) const {
+void LimitMap::Parts::evaluate_row(const Points& points, const Place& place, int order, bool normals, LimitSamples& out,
+                                   std::int64_t i, KnownRows* known) const {
   for (Points* m : {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv, &out.normal})
     if (m->rows() > 0) m->row(i).setZero();
   out.order[i] = 0;
-  if (!is_inside(sample)) {
+  if (!is_inside(place)) {
     out.status[i] = LimitStatus::outside;
     return;
   }
-  Found found = find(sample, order, known);
+  Found found = find(place, order, known);
   if (evaluate_plain_row(points, found, order, normals, out, i)) return;
   const LimitStencil stencil = this->stencil(std::move(found));
   Points local(stencil.vertices.size(), 3);
@@ -272,7 +272,7 @@ void LimitMap::Parts::evaluate_row(const Points& points, const Place& sample, in
   out.status[i] = stencil.status;
   out.order[i] = rows.rows() == 6 ? 2 : rows.rows() == 3 ? 1 : 0;
   if (order == 0 || !normals || stencil.status == LimitStatus::undefined_normal) return;
-  const Eigen::Vector3d normal = normal_of(stencil, local, sample, points);
+  const Eigen::Vector3d normal = normal_of(stencil, local, place, points);
   out.normal.row(i) = normal;
   if (normal.isZero(0) && stencil.status != LimitStatus::hole) out.status[i] = LimitStatus::undefined_normal;
 }

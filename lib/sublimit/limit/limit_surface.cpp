@@ -34,7 +34,7 @@ LimitSurface LimitSurface::with(Points points) const {
 }
 
 const LimitMap& LimitSurface::map() const { return bound_->map; }
-const Points& LimitSurface::points() const { return bound_->points; }
+const Points& LimitSurface::points() const& { return bound_->points; }
 
 void LimitSurface::evaluate(std::span<const Place> places, int derivatives, bool normals, LimitSamples& out) const {
   check_order(derivatives);

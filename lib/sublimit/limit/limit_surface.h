@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sublimit/limit/curvature.h"
@@ -50,9 +51,10 @@ class LimitSurface : public BoundSource {
   /// @throws InvalidMesh       a coordinate that is not finite: says of which control point
   LimitSurface with(Points points) const;
 
-  const LimitMap& map() const;                       ///< the surface without points
-  const Points& points() const;                      ///< control points, #V x 3
-  FaceCount faces() const { return map().faces(); }  ///< faces that places may be on
+  const LimitMap& map() const;                                  ///< the surface without points
+  const Points& points() const&;                                ///< control points, #V x 3
+  Points points() && { return std::as_const(*this).points(); }  ///< a copy, from temporaries
+  FaceCount faces() const { return map().faces(); }             ///< faces that places may be on
   /// Returns the places of a grid on every face: N x N, sides included, u fastest; on triangles N (N + 1) / 2.
   /// @throws InvalidParameter  N below 2
   /// @throws ResourceError     more places than memory holds
@@ -83,8 +85,8 @@ class LimitSurface : public BoundSource {
   }
 
   /// Returns nearest points; include search/closest_point.h, whose `closest` it calls.
-  ClosestPoints closest(const Points& queries) const;
-  ClosestPoints closest(const Points& queries, const ClosestPointOptions& options) const;
+  ClosestPoints closest(const Points& points) const;
+  ClosestPoints closest(const Points& points, const ClosestPointOptions& options) const;
   /// Returns where rays meet the surface; include search/intersect.h, whose `intersect` it calls.
   RayHits intersect(const std::vector<Ray>& rays) const;
   RayHits intersect(const std::vector<Ray>& rays, const RayOptions& options) const;

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <string>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/mesh/sharpness.h"
 
 namespace sublimit {
@@ -187,7 +187,7 @@ bool is_levelled(const KnotIntervals& intervals, size_t e) {
 
 }  // namespace
 
-void find_point_ends(const Topology& t, KnotIntervals& intervals) {
+void set_point_ends(const Topology& t, KnotIntervals& intervals) {
   constexpr std::uint8_t own = 1, beyond = 2;
   intervals.ends.assign(intervals.length.size(), 0);
   const auto flag = [&](HalfEdge h, bool both) {
@@ -216,7 +216,7 @@ KnotIntervals initial_intervals(const Topology& t, const Mesh& mesh, NewKnots ru
   if (owner == KnotOwner::point) {
     fill_opposites(t, result.length);
     if (rule == NewKnots::levelling) {
-      find_point_ends(t, result);
+      set_point_ends(t, result);
       double least = INFINITY;
       for (size_t i = 0; i < result.length.size(); ++i)
         if (result.ends[i] & 1u) least = std::min(least, result.length[i]);

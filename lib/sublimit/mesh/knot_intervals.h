@@ -81,7 +81,7 @@ struct KnotSplit {
 KnotIntervals initial_intervals(const Topology& topology, const Mesh& mesh, NewKnots rule, KnotOwner owner);
 
 /// Fills `ends` of intervals of points, from the extraordinary faces and vertices of the mesh.
-void find_point_ends(const Topology& topology, KnotIntervals& intervals);
+void set_point_ends(const Topology& topology, KnotIntervals& intervals);
 
 /// Returns the new knots of the step to the next level.
 KnotSplit new_knots(const KnotIntervals& intervals);

@@ -38,9 +38,9 @@ enum class FaceVaryingInterpolation {
 /// A mesh: a control mesh, a refined mesh, or triangles near a surface. All but positions and faces may be absent.
 /// `make_mesh` makes one from arrays, `read_mesh` from a file; `write_mesh` writes one. Plain data.
 struct [[nodiscard]] Mesh {
-  Points positions;                  ///< #V x 3
-  std::vector<Index> face_sizes;     ///< corners of each face, >= 3
-  std::vector<Index> face_vertices;  ///< vertices of all faces, one after the other, counter-clockwise
+  Points positions = {};                  ///< #V x 3
+  std::vector<Index> face_sizes = {};     ///< corners of each face, >= 3
+  std::vector<Index> face_vertices = {};  ///< vertices of all faces, one after the other, counter-clockwise
 
   /// A sharp edge, given by its vertices in either order.
   struct Crease {
@@ -52,53 +52,53 @@ struct [[nodiscard]] Mesh {
     Index vertex = 0;
     float sharpness = 0;  ///< levels; >= 10 is infinite
   };
-  std::vector<Crease> creases;  ///< the last entry for an edge wins
-  std::vector<Corner> corners;
+  std::vector<Crease> creases = {};  ///< the last entry for an edge wins
+  std::vector<Corner> corners = {};
   /// Knot interval of an edge and of its strip: the edges opposite to it in quadrilaterals, those opposite to them, ...
   struct KnotInterval {
     Index tail = 0, head = 0;
     double length = 1;
   };
-  std::vector<KnotInterval> knot_intervals;  ///< 1 for edges whose strip has none
-  std::vector<Index> holes;                  ///< faces that are refined but are not part of the limit
+  std::vector<KnotInterval> knot_intervals = {};  ///< 1 for edges whose strip has none
+  std::vector<Index> holes = {};                  ///< faces that are refined but are not part of the limit
 
   /// Rules of refinement; if absent, edge_and_corner, uniform and catmark.
-  std::optional<Boundary> boundary;
-  std::optional<Creasing> creasing;
-  std::optional<Triangles> triangles;
+  std::optional<Boundary> boundary = {};
+  std::optional<Creasing> creasing = {};
+  std::optional<Triangles> triangles = {};
 
   /// Values per corner of a face, such as texture coordinates: a vertex has one or, where the channel has a seam,
   /// several.
   struct FaceVarying {
-    std::string name;
-    Points values;               ///< #values x channels
-    std::vector<Index> indices;  ///< value of every corner, in the order of face_vertices
+    std::string name = {};
+    Points values = {};               ///< #values x channels
+    std::vector<Index> indices = {};  ///< value of every corner, in the order of face_vertices
   };
-  std::vector<FaceVarying> face_varying;
-  std::optional<FaceVaryingInterpolation> face_varying_interpolation;  ///< if absent, `all`: linear everywhere
+  std::vector<FaceVarying> face_varying = {};
+  std::optional<FaceVaryingInterpolation> face_varying_interpolation = {};  ///< if absent, `all`: linear everywhere
 
   /// Names of faces in files: their group, or their object if they are in no group.
   struct FaceNames {
-    std::vector<std::string> names;  ///< different names
-    std::vector<Index> of_face;      ///< number in `names` for each face, -1 for none; empty: no face has one
+    std::vector<std::string> names = {};  ///< different names
+    std::vector<Index> of_face = {};      ///< number in `names` for each face, -1 for none; empty: no face has one
   };
-  FaceNames face_names;
+  FaceNames face_names = {};
 
-  Points normals;  ///< #normals x 3; no rows: none
+  Points normals = {};  ///< #normals x 3; no rows: none
   /// Row in `normals` for each corner, -1 for none; empty: normals are per vertex.
-  std::vector<Index> face_normals;
-  Points texture;               ///< #V x 2 texture coordinates per vertex, for PLY (`s`, `t`); no rows: none
-  std::vector<Index> face_ids;  ///< a number for each face: PLY's `face_id`, OBJ's groups `g face_ID`; empty: none
+  std::vector<Index> face_normals = {};
+  Points texture = {};               ///< #V x 2 texture coordinates per vertex, for PLY (`s`, `t`); no rows: none
+  std::vector<Index> face_ids = {};  ///< a number for each face: PLY's `face_id`, OBJ's groups `g face_ID`; empty: none
   /// A named number for each vertex.
   struct VertexValues {
-    std::string name;
+    std::string name = {};
     std::vector<double> values = {};  ///< #V
     bool whole = false;               ///< written as integers of 32 bits
   };
-  std::vector<VertexValues> vertex_values;  ///< further properties of vertices in PLY; OBJ has no place for them
-  std::vector<std::string> comments;        ///< comment lines at the top of the file
+  std::vector<VertexValues> vertex_values = {};  ///< further properties of vertices in PLY; OBJ has no place for them
+  std::vector<std::string> comments = {};        ///< comment lines at the top of the file
 
-  std::vector<std::string> warnings;  ///< reservations of the reader, each with file:line
+  std::vector<std::string> warnings = {};  ///< reservations of the reader, each with file:line
 
   /// Returns the mesh with other positions, as in another frame.
   /// @param points  #V x 3

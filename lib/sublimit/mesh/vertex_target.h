@@ -14,8 +14,9 @@ namespace sublimit {
 
 /// Principal curvatures at a point with a normal; k > 0 if the surface bends towards the normal. Plain data.
 struct TargetCurvature {
-  double k1 = 0, k2 = 0;       ///< principal curvatures in any order, per unit of length
-  Eigen::Vector3d direction1;  ///< principal direction of k1: perpendicular to the normal, any length > 0
+  double k1 = 0, k2 = 0;  ///< principal curvatures in any order, per unit of length
+  /// Principal direction of k1: perpendicular to the normal, any length > 0.
+  Eigen::Vector3d direction1 = Eigen::Vector3d::Zero();
 };
 
 /// Target for the limit of a control vertex: its position, and optionally normal and curvature. Plain data.

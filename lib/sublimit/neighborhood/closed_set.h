@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a local matrix needs: rows depend on other rows.
+// Closed sets of rows of a matrix: sets that depend on no rows outside, as a local matrix needs.
 #include <utility>
 #include <vector>
 
@@ -9,8 +9,9 @@
 namespace sublimit {
 
 /// Returns the indices that the given rows depend on, themselves included, ascending.
-/// @param count       of all indices
-/// @param depends_on  depends_on(i, add) calls add(j) for what row i depends on
+/// @param open        the given rows
+/// @param count       number of rows of the matrix
+/// @param depends_on  depends_on(i, add) calls add(j) for all j that row i depends on
 template <class DependsOn>
 std::vector<Index> closed_set(std::vector<Index> open, Index count, const DependsOn& depends_on) {
   std::vector<bool> in(size_t(count), false);
@@ -27,7 +28,7 @@ std::vector<Index> closed_set(std::vector<Index> open, Index count, const Depend
   return set;
 }
 
-/// Returns the smallest closed set of a dense matrix: A(set, rest) = 0.
+/// Returns the smallest closed set of a dense matrix that contains the rows `open`: A(set, rest) = 0.
 template <class Matrix>
 std::vector<Index> closed_set(const Matrix& A, std::vector<Index> open) {
   using Number = typename Matrix::Scalar;
@@ -37,7 +38,7 @@ std::vector<Index> closed_set(const Matrix& A, std::vector<Index> open) {
   });
 }
 
-/// Returns the smallest closed set of a sparse matrix.
+/// Returns the smallest closed set of a sparse matrix that contains the rows `open`.
 template <class T>
 std::vector<Index> closed_set(const Eigen::SparseMatrix<T, Eigen::RowMajor, Index>& A, std::vector<Index> open) {
   return closed_set(std::move(open), static_cast<Index>(A.rows()), [&](Index i, const auto& add) {

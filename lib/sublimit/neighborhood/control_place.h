@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Where a vertex of a level is on the control mesh, in words: for messages.
+// Position of a vertex of a level on the control mesh in words, for messages.
 #include <string>
 #include <vector>
 
@@ -8,7 +8,8 @@
 
 namespace sublimit {
 
-/// "vertex 7" where it is that vertex's child, or a corner's point beside it; else "a point in face 3", counted from 0.
+/// Returns "vertex 7" for a descendant of this control vertex (in dual schemes: for a point of one of its
+/// corners), else "a point in face 3". Numbers start at 0.
 std::string control_place(const std::vector<Level>& levels, Vertex vertex);
 
 }  // namespace sublimit

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Local subdivision matrices: how the points of a neighbourhood make those of the same vertex one level on. Assembled
-// by the same code as S, on the unfolded patch.
+// Local subdivision matrices: they take the points of a vertex's neighbourhood to those of its child's
+// neighbourhood. Assembled by the same code as S, on the unfolded patch.
 #include <Eigen/Core>
 
 #include <string>
@@ -16,7 +16,7 @@ namespace sublimit {
 template <class T>
 using DenseMatrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// One step at a vertex: child points = matrix * points, by slots of `child` and of the parent.
+/// One step at a vertex: child points = matrix * parent points, by the slots of `child` and of the parent.
 template <class T>
 struct LocalStep {
   CanonicalNeighborhood child;
@@ -30,9 +30,10 @@ struct SparseStep {
   SparseMatrixOf<T> matrix;
 };
 
-/// The step of `scheme` at a neighbourhood. Where the child has the same signature the matrix is square, and
-/// stationary.
-/// @throws AnalysisError  the rows would use points outside the neighbourhood
+/// Returns the step of `scheme` at a neighbourhood. If the child has the same signature as its parent, the
+/// matrix is square and the same on all later levels.
+/// @param level  number of the parent level
+/// @throws AnalysisError  a scheme of several steps, or rows that use points outside the neighbourhood
 template <class T>
 SparseStep<T> sparse_step(const Scheme<T>& scheme, const CanonicalNeighborhood& type, int level = 0) {
   if (scheme.steps.size() != 1)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Local subdivision matrices of any scheme: a centre of one type, alone among regular points, refined until there are
-// rings enough, then over one whole period. Its matrix takes the points around the centre to those around its child.
+// Local subdivision matrices of any scheme. A centre of a given type, isolated among regular points, is refined
+// until it has enough rings of points, then by one whole period. The matrix of this period takes the points
+// around the centre to those around its child.
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -22,17 +23,18 @@ namespace sublimit {
 /// The points around a centre that its local matrix acts on.
 struct LocalPlaces {
   LocalType type;
-  int depth = 0;                           ///< of the walk that makes the slots and the signature
-  Walk places;                             ///< at that depth
-  std::vector<Index> slots;                ///< those of the smallest closed set
-  std::vector<SectorLabel> labels;         ///< where they lie
-  std::vector<std::vector<Index>> orbits;  ///< of a closed centre: positions in `slots`, rotated sector by sector
-  std::vector<Index> outline;              ///< of an open one: positions in `slots` of border points
+  int depth = 0;                           ///< depth of the walk that numbers the slots
+  Walk places;                             ///< the walk to this depth, with its signature
+  std::vector<Index> slots;                ///< slots of the smallest closed set
+  std::vector<SectorLabel> labels;         ///< label of each of `slots`; empty if not requested
+  std::vector<std::vector<Index>> orbits;  ///< closed centre: positions in `slots` that a rotation permutes, by sector
+  std::vector<Index> outline;              ///< open centre: positions in `slots` of border points
 };
 
+/// A centre's points with the dense local matrix.
 template <class T>
 struct LocalPatch : LocalPlaces {
-  DenseMatrix<T> A;  ///< over `slots`: one period
+  DenseMatrix<T> A;  ///< matrix of one period over `slots`
 };
 
 /// Sparse form of LocalPatch: the matrix has O(#faces of the centre) nonzeros.
@@ -41,26 +43,28 @@ struct SparsePatch : LocalPlaces {
   SparseMatrixOf<T> A;
 };
 
-/// Rings of points that masks may reach. Steps of repeated averaging add up: degree 9 is closed with four rings.
+/// Returns an upper bound of the rings of points that masks of one level reach. Steps of repeated averaging add
+/// up: degree 9 needs four rings.
 template <class T>
 int rings_of_masks(const Scheme<T>& scheme) {
   return std::max(3, static_cast<int>(scheme.steps.size()) - 1);
 }
 
-/// n faces of a scheme's regular size around a vertex, alone.
+/// Returns a mesh of n faces of `face_size` corners around vertex 0.
 Mesh isolated_fan(Index n, Index face_size, bool open);
-/// Returns a closed fan with sharp edges on spokes 0 and `faces`, which separate a side of `faces` faces from the rest.
+/// Returns a closed fan with sharp edges on spokes 0 and `faces`, which cut off a side of `faces` faces.
 /// If `faces` is n, a single sharp edge ends at the vertex: a dart.
 Mesh creased_fan(Index n, Index faces, Index face_size);
 
-/// Largest number of rings of faces around a point that the masks of one level depend on.
+/// Returns the largest number of rings of faces around a point that masks of one level depend on.
 template <class T>
 int reach_of_masks(const Scheme<T>& scheme, bool open) {
   // On a border the curve's masks look along two edges.
   return scheme.steps.size() > 1 || scheme.is_wide() ? rings_of_masks(scheme) : open ? 2 : 1;
 }
 
-/// The faces within `rings` rings around the face of a centre's start as a level of their own, without a matrix.
+/// Replaces a level by the part within `rings` rings of faces around the face of a centre's start. The part has
+/// no matrix; `centre` is renumbered.
 void cut_out(Level& level, Centre& centre, int rings);
 template <class T>
 void cut_out(LevelOf<T>& level, Centre& centre, int rings) {
@@ -81,26 +85,26 @@ struct LocalPatchOptions {
   /// Rings of points that the closed sets must contain, ascending; a patch is made for each. 1 is enough for tangents
   /// (0 for faces).
   std::vector<int> rings;
-  /// The mesh that the centre is in the middle of, its vertex 0; an isolated fan if absent. For one side of
-  /// sharp edges: the centre's first face is that of the edge to vertex 1.
+  /// Mesh whose vertex 0 is the centre; null: an isolated fan. For a side between sharp edges, the centre's
+  /// first face is that of the edge to vertex 1.
   const Mesh* around = nullptr;
-  bool labels = true;  ///< whether places get theirs
+  bool labels = true;  ///< whether `LocalPlaces::labels` are computed
 };
 
-/// Local matrices of a type, over a closed set for each number of rings asked for; nothing where a centre of this type
-/// does not have a child of its own type (a vertex in a dual scheme). Time and memory are linear in the faces around
-/// the centre, but for masks that are not: those of polygons look at all corners from each of them.
+/// Returns the local matrices of a type, over a closed set for each requested number of rings; nothing if a
+/// centre of this type has no child of its own type (a vertex in a dual scheme). Time and memory are linear in
+/// the number of faces around the centre, except for polygon masks, in which each corner depends on all others.
 /// @throws AnalysisError  no small closed set
 /// @throws UnsupportedTopology  the scheme has no rule for what is sharp `around`
 template <class T>
 std::optional<std::vector<SparsePatch<T>>> sparse_patches(const Scheme<T>& scheme, const LocalType& type,
                                                           const LocalPatchOptions& options);
 
-/// Local matrix of a type; nothing where a centre of this type does not have a child of its own type (a vertex in a
-/// dual scheme).
-/// @param rings  of points that the closed set shall hold at least; 1 is enough for tangents (0 for faces)
-/// @param around  the mesh that the centre is in the middle of, its vertex 0; an isolated fan if absent. For one
-///                side of sharp edges: the centre's first face is that of the edge to vertex 1
+/// Returns the local matrix of a type; nothing if a centre of this type has no child of its own type (a vertex
+/// in a dual scheme).
+/// @param rings   rings of points that the closed set contains at least; -1: 1, or 0 for faces, enough for
+///                tangents
+/// @param around  mesh whose vertex 0 is the centre, as in LocalPatchOptions; null: an isolated fan
 /// @throws AnalysisError  no small closed set
 /// @throws UnsupportedTopology  the scheme has no rule for what is sharp `around`
 template <class T>
@@ -120,9 +124,10 @@ std::optional<LocalPatch<T>> local_patch(const Scheme<T>& scheme, LocalType type
 
 namespace local_patch_detail {
 
-/// Rows of the matrix of one period: of some vertices of the last level, over those of the first.
-/// @param levels    the first, and those after it, without matrices
-/// @param vertices  ascending
+/// Returns rows of the matrix of one period: of some vertices of the last level, over the vertices of the
+/// first.
+/// @param levels    first to last level, without matrices
+/// @param vertices  vertices of the last level, ascending
 template <class T>
 SparseMatrixOf<T> period_rows(const Scheme<T>& scheme, std::vector<LevelOf<T>>& levels, std::vector<Index> vertices) {
   SparseMatrixOf<T> S;
@@ -150,8 +155,9 @@ SparseMatrixOf<T> period_rows(const Scheme<T>& scheme, std::vector<LevelOf<T>>& 
   return S;
 }
 
-/// Patches whose points lie within `depth` rings; none in `patches` if that is not enough.
-/// @return  false where there is nothing to find
+/// Computes patches whose points lie within `depth` rings.
+/// @param patches  a patch for each of `options.rings`; empty if `depth` rings are too few
+/// @return  false if a centre of this type has no child of its own type
 template <class T>
 bool patches_within(const Scheme<T>& scheme, const LocalType& type, const LocalPatchOptions& options, int depth,
                     std::vector<SparsePatch<T>>& patches) {

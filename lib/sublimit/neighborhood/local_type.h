@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What is next to a centre, and nothing of what is around that.
+// Types of centres by what is incident to them, without the faces beyond.
 #include <compare>
 
 #include "sublimit/mesh/sharpness.h"
@@ -8,18 +8,22 @@
 
 namespace sublimit {
 
+/// Type of an isolated centre.
 struct LocalType {
   Centre::Kind kind = Centre::Kind::vertex;
-  Index faces = 4;      ///< around the vertex; corners of the face; without meaning for a border edge
+  Index faces = 4;      ///< faces around the vertex, or corners of the face; unused for a border edge
   bool open = false;    ///< the vertex is on the border, or on one side of sharp edges
-  bool corner = false;  ///< and stays where it is
+  bool corner = false;  ///< the vertex is interpolated: a corner
   int phase = 0;        ///< level modulo the scheme's period
   auto operator<=>(const LocalType&) const = default;
 };
 
-/// True if the tail of a half-edge stays where it is: a sharp vertex, or one where more than two sharp edges meet.
+/// True if a vertex is interpolated: a sharp vertex, or one where more than two sharp edges meet.
 bool is_corner(const Topology& topology, const Sharpness& sharpness, Vertex v);
 
+/// Returns the type of a centre.
+/// @param level   number of the level
+/// @param period  period of the scheme
 LocalType local_type(const Topology& topology, const Sharpness& sharpness, const Centre& centre, int level, int period);
 
 }  // namespace sublimit

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Pieces: what a limit surface is made of. In primal schemes a piece is a quadrilateral or a triangle, in dual ones the
-// quarter of a face at one corner, and so is the square at a corner of any other polygon. Refinement cuts a piece into
-// children.
+// Pieces of a limit surface. In primal schemes a quadrilateral or triangular face is a piece, and so is the
+// square at each corner of any other polygon; in dual schemes the square at each corner of a face. Refinement
+// divides a piece into children.
 #include <span>
 #include <vector>
 
@@ -12,33 +12,36 @@
 
 namespace sublimit {
 
+/// A piece of a level.
 struct Piece {
   enum class Kind : std::uint8_t {
-    quad,      ///< of a face: (0,0) at the tail of `start`, (1,0) at its head
-    triangle,  ///< the same, (0,1) at the third corner
-    corner,    ///< the square at the tail of `start`, (1,1) in the middle of its face; u along `start`
-    cut,       ///< the same in a primal scheme: one step on it is a quad
+    quad,      ///< a whole face: (0,0) at the tail of `start`, (1,0) at its head
+    triangle,  ///< a whole face: (0,0) and (1,0) as above, (0,1) at the third corner
+    corner,    ///< dual schemes: the square at the tail of `start`; u along `start`, (1,1) in the middle of the face
+    cut,       ///< primal schemes: the same square at a corner of a polygon; its child is a `quad`
   };
   Kind kind = Kind::quad;
   HalfEdge start = no_half_edge;
 };
 
+/// A child of a piece.
 struct PieceChild {
-  Piece piece;  ///< of the refined level
-  PieceMap map;
+  Piece piece;   ///< piece of the refined level
+  PieceMap map;  ///< from parameters of the parent to those of the child
 };
 
-/// A refinement and the level that it refines.
+/// A refinement, and the number and knots of the level that it refines.
 struct LevelStep {
   const Refinement* refinement;
   int level;
-  const KnotSplit* knots = nullptr;        ///< null: new ones are in the middle
-  const KnotSplit* child_knots = nullptr;  ///< of the refined level; null: the same
+  const KnotSplit* knots = nullptr;        ///< new knots; null: in the middle of their intervals
+  const KnotSplit* child_knots = nullptr;  ///< new knots of the refined level; null: likewise
 };
 
-/// Children of a piece after one period of its scheme.
-/// @param steps  of one period, from `parent` on
-/// @throws AnalysisError  children that do not tile their parent
+/// Returns the children of a piece after one period of its scheme.
+/// @param parent  topology of the level of the piece
+/// @param steps   refinements of one period, starting from `parent`
+/// @throws AnalysisError  children do not tile their parent
 std::vector<PieceChild> children(const Piece& piece, const Topology& parent, std::span<const LevelStep> steps);
 
 }  // namespace sublimit

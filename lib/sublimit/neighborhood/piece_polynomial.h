@@ -20,7 +20,8 @@ class PolynomialBasis {
   int degree() const { return degree_; }
   bool total() const { return total_; }
   int size() const { return total_ ? (degree_ + 1) * (degree_ + 2) / 2 : (degree_ + 1) * (degree_ + 1); }
-  /// Rows: value, then u, v, then uu, uv, vv as `order` says; by i, then j.
+  /// Returns values and derivatives up to `order` at (u, v): rows value; u, v; uu, uv, vv; columns by i, then
+  /// j.
   RowMatrix at(double u, double v, int order) const;
 
  private:
@@ -28,12 +29,14 @@ class PolynomialBasis {
   bool total_ = false;
 };
 
+/// The limit of a piece as a polynomial in its parameters.
 struct PiecePolynomial {
   PolynomialBasis basis;
-  /// Coefficients in differences (piece_types.h), #basis x (#slots - 1); two for a piece cut along u = v, first u >= v.
+  /// Coefficients over differences of points (PieceBlock), #basis x (#slots - 1). A piece cut along u = v has
+  /// two: for u >= v, and for u < v.
   std::vector<RowMatrix> coefficients;
 
-  /// Rows in differences: position less slot 0, derivatives.
+  /// Returns rows over differences: position minus slot 0, then derivatives up to `order`.
   RowMatrix rows(const PieceCoordinates& place, int order) const {
     const bool second = coefficients.size() > 1 && place.u < place.v;
     return basis.at(place.u, place.v, order) * coefficients[second ? 1 : 0];

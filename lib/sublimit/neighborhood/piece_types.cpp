@@ -16,7 +16,7 @@
 #include "sublimit/neighborhood/closed_set.h"
 #include "sublimit/neighborhood/polynomial_search.h"
 #include "sublimit/neighborhood/regular_smoothness.h"
-#include "sublimit/scheme/check_scheme.h"
+#include "sublimit/scheme/detail/check_scheme.h"
 #include "sublimit/scheme/detail/refine_impl.h"
 #include "sublimit/scheme/detail/sheet_part.h"
 #include "sublimit/scheme/detail/subdivision_rows.h"

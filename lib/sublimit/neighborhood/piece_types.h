@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Types of pieces: what a piece of the limit is by its neighbourhood alone. A type knows its children and the block of
-// S that makes their points, or the polynomial that it is. Each is computed when it is first needed, once.
+// Types of pieces. Pieces of the limit whose neighbourhoods have the same signature share a type, which
+// provides their children with the blocks of S that make the children's points, their polynomial if there is
+// one, and their limits at corners. Each is computed once, on first use.
 #include <array>
 #include <atomic>
 #include <deque>
@@ -23,83 +24,93 @@ namespace sublimit {
 class PieceType;
 class PieceTypes;
 
+/// A child of a type.
 struct PieceLink {
   const PieceType* type = nullptr;
   PieceMap map;
   PieceBlock block;
   /// True if the child has its parent's type and orientation.
   bool repeats = false;
-  /// No child before it begins at the same point.
+  /// True if no earlier child has the same first point.
   bool begins_new = false;
-  RepeatedBlock repeated{block};
+  RepeatedBlock repeated{block};  ///< powers of the block, for links that repeat
 };
 
+/// A type of piece. Threads may share it; it lives as long as its PieceTypes.
 class PieceType {
  public:
   Piece::Kind kind() const { return kind_; }
   const PieceTypes& types() const { return *types_; }
-  /// Points that it depends on.
+  /// Returns the number of points that a piece of this type depends on.
   Index num_slots() const { return num_slots_; }
   /// True if a finite crease sharpness is involved. Sharpness sums then follow the vertex order of the first mesh seen.
   bool decays() const { return decays_; }
-  /// The piece among the points around it, the rim of which means nothing, and the vertices that are its slots.
+  /// A level that contains a piece of this type with its surroundings (its border is arbitrary), the piece in
+  /// it, and the vertex of each slot.
   const Level& level() const { return surroundings().level; }
   const Piece& piece() const { return surroundings().piece; }
   std::span<const Index> slots() const { return surroundings().slots; }
-  /// Its children, whether or not it is a polynomial.
+  /// Returns the children, whether or not the piece is a polynomial.
   const std::deque<PieceLink>& children() const {
     return children_.get([this] { return found_children(); });
   }
-  /// Corners of its children over its own slots, child after child and counter-clockwise: rows of S, without looking at
-  /// what types the children are.
+  /// Corners of the children as rows of S over the own slots. They need no types of children.
   struct ChildCorners {
-    std::vector<PieceMap> maps;  ///< of the children
-    RowMatrix rows;              ///< as many a child as it has corners
+    std::vector<PieceMap> maps;  ///< map of each child
+    RowMatrix rows;              ///< a row per corner, child by child, counter-clockwise
   };
   /// Returns the corners of the children as rows over the own slots; for quadrilaterals and triangles.
   ChildCorners child_corners() const;
-  /// The child that a place is in.
+  /// Returns the child that contains a place.
   const PieceLink& child(const PieceCoordinates& place) const;
-  /// Null where it is no polynomial.
+  /// Returns the polynomial of the piece, or null if it is none.
   const PiecePolynomial* polynomial() const;
   /// Returns the polynomial if it has been computed already, else null.
   const PiecePolynomial* known_polynomial() const {
     return polynomial_state_.load(std::memory_order_acquire) == 2 ? &*candidate_ : nullptr;
   }
 
-  /// Rows of the limit at a corner without polynomials. Corners count counter-clockwise from (0,0).
+  /// Rows of the limit at a corner of a piece without polynomials. Corners count counter-clockwise from (0,0).
   struct CornerRows {
-    RowMatrix rows;  ///< the position, then u and v, then uu, uv and vv, as often as the limit is differentiable
-    /// Differences of points whose limits are u and v on all of the piece, by columns; none where these are not known.
+    RowMatrix rows;  ///< position; u and v; uu, uv and vv: as far as the limit is differentiable
+    /// Differences of points whose limits on the piece are u and v, as columns; empty if not known.
     Eigen::MatrixXd linear;
+    /// Returns the number of times that the limit is differentiable: 0, 1 or 2 (or more).
     int order() const { return rows.rows() == 6 ? 2 : rows.rows() == 3 ? 1 : 0; }
   };
+  /// Returns the rows at a corner, over differences.
   /// @throws AnalysisError  no limit
   const CornerRows& corner(int corner) const {
     return corners_[corner].get([&] { return found_corner(corner); });
   }
+  /// Returns the row of the position at a corner, over differences.
+  /// @throws AnalysisError  no limit
   const Eigen::RowVectorXd& corner_limit(int corner) const {
     return corner_limits_[corner].get([&] { return found_corner_limit(corner); });
   }
-  /// How far the limit leaves the points, relative to their extent: 0 where no weight of its refinement is negative,
-  /// now or later; else as seen at the corners of its children, and doubled for what lies between.
+  /// Returns how far the limit can leave the extent of the points, relative to it. 0 if no weight of the piece
+  /// and its descendants is negative. Else an estimate, not a bound: twice the sum of negative weights at a
+  /// corner of a child.
   double reach() const {
     return reach_.get([this] { return found_reach(); });
   }
 
  private:
   struct CornerPath;
-  /// Where blocks D to a corner repeat and scale, derivatives are left eigenvectors of scale^-degree: by their values
-  /// on the right ones, whose limits are homogeneous polynomials.
+  /// Derivatives of one degree at a corner where the same block D repeats and scales parameters. They are left
+  /// eigenvectors of D for scale^-degree, normalised by their values on the right ones, whose limits are
+  /// homogeneous polynomials.
   struct Modes {
-    Eigen::MatrixXd derivatives, functions;  ///< by rows; by columns, those whose only derivative is 1
+    /// A row per derivative; a column per function, whose limit has one derivative 1 and the others 0.
+    Eigen::MatrixXd derivatives, functions;
   };
   struct Surroundings {
     Level level;
     Piece piece;
-    std::vector<Index> slots;  ///< vertex of each
+    std::vector<Index> slots;  ///< vertex of each slot
   };
-  /// Taken out of the level that the type was met in when first needed: most children lie beside the ways to places.
+  /// Returns the surroundings, cut out of the level of the first piece of the type on first use. Most children
+  /// never need theirs, since no requested place is in them.
   const Surroundings& surroundings() const {
     return surroundings_.get([this] { return found_surroundings(); });
   }
@@ -108,72 +119,78 @@ class PieceType {
   CornerRows found_corner(int corner) const;
   Eigen::RowVectorXd found_corner_limit(int corner) const;
   double found_reach() const;
-  /// The level after its own, and the children on it.
+  /// The surroundings after one period.
   struct Refined {
-    std::vector<std::shared_ptr<const Level>> levels;  ///< of one period
-    std::vector<PieceChild> children;
-    std::vector<Index> slot_of;  ///< of its own vertices, -1 beyond
+    std::vector<std::shared_ptr<const Level>> levels;  ///< levels of the period, without that of the surroundings
+    std::vector<PieceChild> children;                  ///< children, on the last level
+    std::vector<Index> slot_of;                        ///< slot of each vertex of the surroundings; -1: none
   };
   Refined refined() const;
-  /// S from its own level to the last one: the rows of these vertices, and perhaps others.
+  /// Returns the product of the S of one period; only rows of these vertices of the last level are sure to be
+  /// filled.
   SparseMatrix rows_of(const Refined& refined, std::vector<Index> vertices) const;
-  /// Returns the rows over the slots of the piece.
+  /// Returns rows of S, by vertex, as rows over the slots of the piece.
+  /// @throws AnalysisError  a row uses points without a slot
   SparseMatrix rows_over_slots(const Refined& refined, const SparseMatrix& S, std::span<const Index> vertices) const;
-  /// Nothing where the limits are not so.
+  /// Returns the modes of a degree at a corner; nothing if the eigenvalue has another multiplicity than there
+  /// are derivatives, or limits are no such polynomials.
   std::optional<Modes> modes(int corner, const Eigen::MatrixXd& D, double scale, int degree) const;
-  /// Inside, of another valence than regular meshes have: no parameter is natural there.
+  /// True for an interior corner of irregular valence, where the limit has no natural parameters.
   bool is_extraordinary(int corner) const;
-  /// No weight of its block is negative, nor of any descendant's.
+  /// True if no weight of the blocks of this type and of its descendants is negative.
   bool has_only_means() const;
   friend class PieceTypes;
   friend class PolynomialSearch;
   PieceTypes* types_ = nullptr;
   Piece::Kind kind_ = Piece::Kind::quad;
-  int rings_ = 1;        // of faces around it that it depends on
-  bool decays_ = false;  // finite sharpness: its children are others, and it is no polynomial
-  bool apart_ = false;   // around it are the sheets that its walk has met
+  int rings_ = 1;        // rings of faces around it that it depends on
+  bool decays_ = false;  // finite sharpness: children have other types, and it is no polynomial
+  bool apart_ = false;   // `PieceWalk::apart` of its walk
   Index num_slots_ = 0;
-  /// Where the type was met first, until its surroundings are taken out.
+  /// The first piece of this type, until its surroundings are cut out.
   struct Met {
     std::shared_ptr<const Level> level;
     Piece piece;
     std::vector<Index> slots;
   };
-  mutable Met met_;  // read and dropped by `found_surroundings` alone
-  FoundOnce<Surroundings> surroundings_;
-  FoundOnce<std::deque<PieceLink>> children_;
-  mutable std::atomic<int> polynomial_state_{0};  // 0: not known, 1: none, 2: there is one
-  // By the search alone, of which there is one at a time.
+  mutable Met met_;  // only used, then cleared, by `found_surroundings`
+  ComputedOnce<Surroundings> surroundings_;
+  ComputedOnce<std::deque<PieceLink>> children_;
+  mutable std::atomic<int> polynomial_state_{0};  // 0: undecided, 1: none, 2: there is one
+  // Used only by PolynomialSearch, of which one runs at a time.
   mutable std::optional<PiecePolynomial> candidate_;
   mutable bool has_candidate_ = false;
-  std::array<FoundOnce<Eigen::RowVectorXd>, 4> corner_limits_;
-  std::array<FoundOnce<CornerRows>, 4> corners_;
-  mutable std::atomic<int> only_means_{0};  // 0: not known, 1: no, 2: yes
-  FoundOnce<double> reach_;
+  std::array<ComputedOnce<Eigen::RowVectorXd>, 4> corner_limits_;
+  std::array<ComputedOnce<CornerRows>, 4> corners_;
+  mutable std::atomic<int> only_means_{0};  // 0: undecided, 1: no, 2: yes
+  ComputedOnce<double> reach_;
 };
 
 /// The types of one scheme, shared between surfaces and threads.
 class PieceTypes {
  public:
-  /// @param max_types  a surface that needs more, when there are so many, keeps them for itself
+  /// @param max_types  number of types from which on surfaces store further types themselves
   explicit PieceTypes(const Scheme<double>& scheme, size_t max_types = size_t(1) << 16);
   ~PieceTypes();
 
   const Scheme<double>& scheme() const { return scheme_; }
-  /// Rings of faces around a piece that it depends on, where intervals between knots are equal.
+  /// Returns the number of rings of faces that a piece depends on, between equal knot intervals.
   int rings(const Sharpness& sharpness) const;
+  /// Returns the number of types.
   size_t size() const;
   bool is_full() const { return size() >= max_types_; }
-  /// No piece is a polynomial, as is known once a regular one has been looked at.
+  /// Returns true if it is known that no piece is a polynomial; decided when the first regular piece is
+  /// examined.
   bool has_no_polynomials() const { return has_none_.load(std::memory_order_relaxed); }
-  /// `sublimit::regular_smoothness` of the scheme, found when it is first asked for.
+  /// Returns `sublimit::regular_smoothness` of the scheme, computed on first use.
   int regular_smoothness() const;
 
   /// Returns the type of a piece, which is made if it is new.
-  /// @param walk  of the piece; a walker of the calling thread may keep it, for this thread takes up no other work in
-  ///              here
+  /// @param walk  walk around the piece. It may belong to a walker of the calling thread, which executes no
+  ///              other task during this call
   const PieceType* type(const Level& level, const Piece& piece, const PieceWalk& walk);
-  /// Returns the type of a piece of a shared level, which the type may keep until it looks at its surroundings.
+  /// Returns the type of a piece of a shared level. A new type keeps the level until its surroundings are
+  /// needed, which saves cutting them out.
   const PieceType* type(const std::shared_ptr<const Level>& level, const Piece& piece, const PieceWalk& walk);
   /// Returns the type with this signature, or null.
   const PieceType* find(const std::vector<std::uint32_t>& signature) const;
@@ -184,8 +201,8 @@ class PieceTypes {
   friend class PieceType;
   friend class PolynomialSearch;
   Scheme<double> scheme_;
-  /// Counts what will be taken for a type of so many points, before it is.
-  /// @throws ResourceError  all types together take more than there is
+  /// Counts memory that is about to be allocated for a type of `slots` points.
+  /// @throws ResourceError  all types together would take more memory than there is
   void take(double bytes, Index slots);
   std::unique_ptr<PieceType> made(std::shared_ptr<const Level> level, const Piece& piece, const PieceWalk& walk);
   const PieceType* kept(const PieceWalk& walk, std::unique_ptr<PieceType> type);
@@ -194,34 +211,39 @@ class PieceTypes {
   mutable std::shared_mutex mutex_;
   std::unordered_map<std::vector<std::uint32_t>, std::unique_ptr<PieceType>, SignatureHash> types_;
   mutable std::mutex polynomials_;          // one search at a time
-  std::optional<PolynomialBasis> basis_;    // of the first regular piece's polynomial
-  bool halves_ = false, searched_ = false;  // regular pieces are cut along u = v; have been looked at
+  std::optional<PolynomialBasis> basis_;    // basis of the polynomial of the first regular piece
+  bool halves_ = false, searched_ = false;  // regular pieces are cut along u = v; have been examined
   std::atomic<bool> has_none_{false};       // regular pieces are no polynomials
-  FoundOnce<int> smoothness_;
+  ComputedOnce<int> smoothness_;
 };
 
-/// True if a place is where polynomials meet: on a side of its piece, or on the line that cuts the piece in two.
-/// @param dual  pieces are corners of faces, whose polynomials go on beyond the corner's own sides
+/// True if polynomials meet at a place: on a side of its piece, or on the line that cuts the piece in two.
+/// @param dual    the scheme is dual: the polynomial of a piece continues across the sides at its vertex
+/// @param halves  pieces are cut along u = v
 inline bool is_on_knot(const PieceCoordinates& p, bool triangle, bool dual, bool halves) {
   if (triangle) return p.u == 0 || p.v == 0 || p.u1 == 0;
   return p.u1 == 0 || p.v1 == 0 || (!dual && (p.u == 0 || p.v == 0)) || (halves && p.u == p.v);
 }
 
-/// Derivative rows of a child become those of its parent.
+/// Converts derivative rows by the parameters of a child to those by the parameters of its parent, in place.
 void apply_chain(const PieceMap::Chain& chain, RowMatrix& rows);
 
-/// Rotates tangent rows as the chain of maps rotates u and v; both may be scaled by a common factor.
+/// Converts tangent rows of a child to those of its parent, in place.
 void turn_tangents(const PieceMap::Chain& chain, RowMatrix& tangents);
 
-/// Rows of a place over the slots of a piece, in differences.
+/// Rows of a place, over differences of the points of its piece.
 struct PieceRows {
-  RowMatrix rows;          ///< position, then u, v, then uu, uv, vv
-  RowMatrix tangents;      ///< of order >= 1: two rows along the tangent plane, u and v but for factors that cancel
-  int order = 0;           ///< derivatives that exist: 0, 1 or 2
-  bool at_corner = false;  ///< a corner where there is no polynomial: tangents come from elsewhere
-  bool on_knot = false;    ///< where polynomials of low smoothness meet
+  RowMatrix rows;      ///< position, then u, v, then uu, uv, vv
+  RowMatrix tangents;  ///< if order >= 1: rows that span the tangent plane: u and v, up to factors that keep the normal
+  int order = 0;       ///< highest derivative that exists: 0, 1 or 2
+  bool at_corner = false;  ///< a corner without a polynomial: tangents may come from limit masks
+  bool on_knot = false;    ///< polynomials meet here: second derivatives may jump
 };
-/// @param search  whether to find out if pieces are polynomials; else only what is known is used
+/// Returns the rows at a place of a piece of a type.
+/// @param order   highest derivative, 0 to 2
+/// @param search  true: decide whether pieces are polynomials; false: use only polynomials that are known
+///                already
+/// @throws AnalysisError  no limit
 PieceRows piece_rows(const PieceType& type, PieceCoordinates place, int order, bool search = true);
 
 }  // namespace sublimit

@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Which pieces are polynomials. No spline is written down anywhere: the limit is taken at points enough for a
-// polynomial through them, and the polynomial is believed if it satisfies the refinement equation
+// Decides which pieces are polynomials. No spline basis is built in: the limit is interpolated by a polynomial,
+// which is accepted if it satisfies the refinement equation
 //
-//   p(u,v) x = p_child(map(u,v)) B x      for all children, as many points of each as the degree asks for
+//   p(u,v) x = p_child(map(u,v)) B x      for all children, at as many points of each as the degree requires
 //
-// since the limit is the only solution of this equation that is continuous.
+// since the limit is the only continuous solution of this equation.
 #include <vector>
 
 #include "sublimit/neighborhood/piece_types.h"
 
 namespace sublimit {
 
-/// Its thread takes up no other work while it lives (tbb::this_task_arena::isolate): it holds a lock.
+/// A search for polynomials. It holds a lock: create it only inside tbb::this_task_arena::isolate, so that its
+/// thread executes no task that needs the lock again.
 class PolynomialSearch {
  public:
   explicit PolynomialSearch(PieceTypes& types) : types_(types), lock_(types.polynomials_) {}
-  /// Sets whether a type is a polynomial.
+  /// Decides whether a type is a polynomial, and stores the answer in the type.
   void decide(const PieceType& type);
 
  private:
   struct Verdict {
     bool polynomial;
-    size_t lowest;  ///< of the types on the stack that this was assumed for
+    size_t lowest;  ///< lowest type on the stack whose being a polynomial was assumed for this verdict
   };
   Verdict verdict(const PieceType& type);
-  /// Decides a regular piece between equal knot intervals, from whose polynomial all others are known.
+  /// Decides a regular piece between equal knot intervals, whose polynomial gives degree and shape of all
+  /// others.
   void start_from_equal_intervals();
   const PiecePolynomial* candidate(const PieceType& type);
   std::optional<PiecePolynomial> found_candidate(const PieceType& type);

@@ -7,20 +7,21 @@
 
 namespace sublimit {
 
-/// Quadrilaterals whose corners have valence 4, or triangles whose corners have valence 6, with faces of the same size
-/// around, inside the mesh, with nothing sharp at the corners or on their edges, and as many points around as they
-/// would have in a plane: on a torus of three quadrilaterals around, some are the same, and the type is another.
+/// Regular faces of a level: quadrilaterals with corners of valence 4, or triangles with corners of valence 6,
+/// inside the mesh, surrounded by faces of the same size, and with no sharp corner or sharp edge at a corner.
+/// Their 16 or 12 points must be distinct: on a torus of three quadrilaterals around some coincide, which is
+/// another type.
 class RegularFaces {
  public:
-  /// @param level    whose faces and half-edges are to stay
-  /// @param corners  of the faces: 3 or 4
+  /// @param level    its topology must outlive this
+  /// @param corners  number of corners of the faces, 3 or 4
   RegularFaces(const Level& level, int corners);
   RegularFaces(const Level&&, int) = delete;
 
   bool is_regular(Face face) const { return regular_[index(face)] != 0; }
-  /// The points of a face and of those around it, in the order in which `PieceWalker` finds them in one ring.
-  /// @param out  `num_points` of them
-  /// @return  false for a face that is not regular
+  /// Writes the points of a face and of the faces around it, in the order of a one-ring `PieceWalker`.
+  /// @param out  room for `num_points()` indices
+  /// @return  false, with nothing written, if the face is not regular
   bool points(Face face, Index* out) const;
   int num_points() const { return corners_ == 3 ? 12 : 16; }
 

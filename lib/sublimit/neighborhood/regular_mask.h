@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The one mask that a scheme has on regular meshes, over a whole period of levels: read off the local matrix of a
-// regular centre, whose labels are coordinates of the plane. In any number type.
+// The mask of a scheme on regular meshes over a whole period of levels, in any number type. It is read off the
+// local matrix of a regular centre, whose labels are coordinates in the plane.
 //
 //   new(i) = sum over j of weights(i - dilation j) old(j)
 //
@@ -21,10 +21,10 @@
 
 namespace sublimit {
 
-/// Whole steps along the two directions.
+/// Number of steps along each of the two directions.
 using Offset = std::array<int, 2>;
 
-/// A place of the plane, in halves of an edge.
+/// A place in the plane; coordinates in half edges.
 struct LatticePoint {
   int x2 = 0, y2 = 0;
   int operator[](int k) const { return k == 0 ? x2 : y2; }
@@ -34,31 +34,32 @@ struct LatticePoint {
   friend LatticePoint operator*(int k, LatticePoint a) { return {k * a.x2, k * a.y2}; }
 };
 
-/// Where a label of a regular centre lies: sector s is sector 0 rotated s times.
+/// Returns the place of a label around a regular centre: sector s is sector 0 rotated s times.
 inline LatticePoint unrolled(const SectorLabel& label, bool triangular) {
   LatticePoint p{label.x2, label.y2};
   for (int s = 0; s < label.sector; ++s) p = triangular ? LatticePoint{-p.y2, p.x2 + p.y2} : LatticePoint{-p.y2, p.x2};
   return p;
 }
 
+/// The mask: new(i) = sum over j of weights(i - dilation j) old(j).
 template <class T>
 struct RegularMask {
   bool triangular = false;
-  bool dual = false;  ///< points lie around a face, at odd halves
+  bool dual = false;  ///< points are at odd half coordinates, the centre is a face
   int dilation = 2;
-  std::map<Offset, T> weights = {};  ///< by i - dilation j; none is zero
+  std::map<Offset, T> weights = {};  ///< nonzero weights by i - dilation j
 
   bool operator==(const RegularMask&) const = default;
 
-  /// P - dilation Q of a weight's key, P and Q being places.
+  /// Returns P - dilation Q for the key of a weight, where P and Q are the places of the new and the old point.
   LatticePoint doubled(const Offset& key) const { return {2 * key[0] - shift(), 2 * key[1] - shift()}; }
-  /// The weights by that.
+  /// Returns the weights by P - dilation Q.
   std::map<LatticePoint, T> plane_weights() const {
     std::map<LatticePoint, T> by_place;
     for (const auto& [key, weight] : weights) by_place.emplace(doubled(key), weight);
     return by_place;
   }
-  /// Least and greatest coordinates of these.
+  /// Returns the least and, in `high`, the greatest coordinates of P - dilation Q.
   LatticePoint low() const {
     Offset least = weights.begin()->first;
     for (const auto& [key, weight] : weights) least = {std::min(least[0], key[0]), std::min(least[1], key[1])};
@@ -69,24 +70,24 @@ struct RegularMask {
     for (const auto& [key, weight] : weights) greatest = {std::max(greatest[0], key[0]), std::max(greatest[1], key[1])};
     return doubled(greatest);
   }
-  /// How far new points are from the old ones that they see, at most, along an axis; in halves.
+  /// Returns the largest coordinate of P - dilation Q in modulus, in half edges.
   int reach2() const {
     const LatticePoint l = low(), h = high();
     return std::max({-l.x2, -l.y2, h.x2, h.y2});
   }
 
-  /// The place Q of the old point that a new point at P is P - dilation Q = offset from; nothing where none lies there.
+  /// Returns the place Q with P - dilation Q = offset, if an old point lies there.
   std::optional<LatticePoint> parent(LatticePoint P, LatticePoint offset) const {
     const LatticePoint d = P - offset;
     if (d.x2 % dilation != 0 || d.y2 % dilation != 0) return std::nullopt;
     const LatticePoint Q{d.x2 / dilation, d.y2 / dilation};
     return has_point(Q) ? std::optional(Q) : std::nullopt;
   }
-  /// A point of the grid lies there.
+  /// True if a point of the grid lies at a place.
   bool has_point(LatticePoint p) const { return (p.x2 % 2 != 0) == dual && (p.y2 % 2 != 0) == dual; }
 
-  /// Rings with modes of their own: further points are made by points nearer to the centre. A point r rings away sees
-  /// points (r + reach)/dilation away, which are further out only for r < reach/(dilation - 1).
+  /// Returns the number of rings that determine all others. A point r rings away depends on points at most
+  /// (r + reach)/dilation away, which is nearer to the centre unless r < reach/(dilation - 1).
   int recurrent_rings() const {
     const int steps = 2 * (dilation - 1);
     return (reach2() + steps - 1) / steps;
@@ -96,7 +97,8 @@ struct RegularMask {
   int shift() const { return dual ? dilation - 1 : 0; }
 };
 
-/// Equal; of floating numbers: up to the rounding of a few steps' masks, whose weights are about 1.
+/// True if two weights are equal; for floating-point numbers up to 512 eps, the rounding of the masks of a few
+/// steps.
 template <class T>
 bool is_same_weight(const T& a, const T& b) {
   if constexpr (std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_exact) {
@@ -107,8 +109,9 @@ bool is_same_weight(const T& a, const T& b) {
   }
 }
 
-/// @throws AnalysisError  rows of the local matrix are not one mask: a period that does not bring labels back, or
-///                        weights that T cannot hold
+/// Returns the regular mask of a scheme.
+/// @throws AnalysisError  the rows of the local matrix do not agree on one mask: the period does not restore
+///                        directions, or T cannot represent the weights
 template <class T>
 RegularMask<T> regular_mask(const Scheme<T>& scheme) {
   RegularMask<T> mask{.triangular = scheme.face_size() == 3,

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A block of S many times in a row: the way towards a vertex whose neighbourhood repeats itself. Powers are made by
-// squaring.
+// Powers of a block of S, for descents towards a vertex with a stationary neighbourhood. Computed by squaring.
 //
-// A row whose part along the leading eigenvector vanishes (a second derivative of what is linear, a derivative across a
-// crease) must keep that part zero, else rounding grows like (lambda/mu)^k against the rest. So the leading eigenvalues
-// are split off one after the other, as far as they are real and semisimple, and such rows go on with what is left of
-// the block.
+// If the component of a row along the leading eigenvector vanishes (a second derivative on linear functions, a
+// derivative across a crease), it must stay zero: rounding would grow like (lambda/mu)^k relative to the rest.
+// The leading eigenvalues are therefore deflated one after another, as long as they are real and semisimple,
+// and such rows are multiplied by the deflated block.
 #include <array>
 #include <memory>
 #include <vector>
@@ -16,38 +15,42 @@
 
 namespace sublimit {
 
+/// Powers of one block. Computed on first use; threads may share it.
 class RepeatedBlock {
  public:
-  /// @param block  which must stay
+  /// @param block  must outlive this
   explicit RepeatedBlock(const PieceBlock& block) : block_(block) {}
   explicit RepeatedBlock(const PieceBlock&&) = delete;
 
-  /// The position, the first of `rows`, `times` steps back, and the rows below it, derivatives.
+  /// Returns rows (position, then derivatives) multiplied by the block `times` times.
   RowMatrix pulled_back(const RowMatrix& rows, int times) const;
-  /// Two rows whose cross product is along the normal: as these, made such that the second has no part in what the
-  /// first shrinks by, where that is slower.
+  /// Returns two rows whose cross product has the direction of the normal, from two such rows `times` steps
+  /// later. Rows are scaled to unit length. If both shrink along the same leading eigenvector, it is removed
+  /// from one of them.
   RowMatrix tangents_pulled_back(RowMatrix tangents, int times) const;
 
  private:
-  static constexpr int few = 6;  ///< times: not worth an eigenproblem
+  static constexpr int few = 6;  ///< number of steps below which deflation is not worth an eigenproblem
+  /// The block with the leading eigenvalues removed.
   struct Stage {
-    Eigen::MatrixXd right, left;  ///< eigenvectors that were split off before it, left * right = 1
+    Eigen::MatrixXd right, left;  ///< eigenvectors of the eigenvalue removed last, left * right = 1
     RowMatrix D;
-    std::array<FoundOnce<RowMatrix>, 13> powers;
+    std::array<ComputedOnce<RowMatrix>, 13> powers;
     const RowMatrix& power(int i) const;
   };
-  using Stages = std::vector<std::unique_ptr<Stage>>;  // the first has nothing split off
+  using Stages = std::vector<std::unique_ptr<Stage>>;  // the first is the block itself
   const PieceBlock& power(int i) const;
   const Stages& stages() const;
   Stages found_stages() const;
-  /// A derivative row, by the stage that its leading part allows.
-  /// @param size  of rows like this one: what is small is measured by it, as the row itself may be what rounding left
-  /// of 0
+  /// Returns a derivative row multiplied `times` times by the most deflated stage that keeps all components of
+  /// the row above rounding.
+  /// @param size         norm of rows of this kind, relative to which components count as zero
+  /// @param least_stage  stage to use at least
   Eigen::RowVectorXd shrunk(Eigen::RowVectorXd row, double size, int times, size_t least_stage) const;
 
   const PieceBlock& block_;
-  std::array<FoundOnce<PieceBlock>, 13> powers_;
-  FoundOnce<Stages> stages_;
+  std::array<ComputedOnce<PieceBlock>, 13> powers_;
+  ComputedOnce<Stages> stages_;
 };
 
 }  // namespace sublimit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The mesh around a centre, from labels alone: n sectors of a regular grid, `rings` of them.
+// Meshes around a centre made of n sectors of a regular grid.
 #include <map>
 
 #include "sublimit/mesh/mesh.h"
@@ -8,17 +8,19 @@
 
 namespace sublimit {
 
+/// A mesh with its sector labels.
 struct SectorMesh {
-  Mesh mesh;                        ///< positions zero
-  std::vector<SectorLabel> labels;  ///< by vertex, sector by sector within a ring of squares or triangles
-  std::map<SectorLabel, Index> find;
-  std::vector<int> ring;  ///< by face: 0 next to the centre (the face itself too), then outwards
+  Mesh mesh;                          ///< positions zero
+  std::vector<SectorLabel> labels;    ///< by vertex, sector by sector within a ring of squares or triangles
+  std::map<SectorLabel, Index> find;  ///< vertex by label
+  std::vector<int> ring;  ///< by face: 0 at the centre (also for the centre face itself), ascending outwards
 };
 
-/// @param n          sectors: valence of the vertex, corners of the face, or faces of an open fan
-/// @param face_size  3 or 4, of the faces around a vertex; 4 around a face
-/// @param rings      of faces around the centre, >= 1
-/// @param open       the fan of a border vertex; not for faces
+/// Returns the mesh around a centre.
+/// @param n          number of sectors: valence of the vertex, corners of the face, or faces of an open fan
+/// @param face_size  size of the faces: 3 or 4 around a vertex, 4 around a face
+/// @param rings      rings of faces around the centre, >= 1
+/// @param open       true: the centre is a border vertex
 SectorMesh sector_mesh(Centre::Kind kind, int n, int face_size, int rings, bool open = false);
 
 }  // namespace sublimit

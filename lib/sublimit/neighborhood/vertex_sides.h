@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The sides of the vertices of a level as places where limits are taken: a side for each fan of faces, and for each
-// part of a fan that sharp edges cut off.
+// Sides of the vertices of a level, at which limits are computed: one for each fan of faces, or for each part
+// of a fan that sharp edges separate.
 #include <vector>
 
 #include "sublimit/neighborhood/centre.h"
@@ -9,17 +9,19 @@
 
 namespace sublimit {
 
+/// All sides of a level.
 struct VertexSides {
   std::vector<Centre> centres;     ///< one per side
-  std::vector<Index> vertex;       ///< of each side; ascending; isolated vertices have none
+  std::vector<Index> vertex;       ///< vertex of each side, ascending; isolated vertices have no side
   std::vector<Index> corner_side;  ///< side of each half-edge (corner of a face)
-  std::vector<bool> hole;          ///< all faces of the side are holes
+  std::vector<bool> hole;          ///< per side: true if all its faces are holes
 };
 
+/// Returns the sides of all vertices.
 VertexSides vertex_sides(const Level& level);
 
-/// The side of its tail that a half-edge's face is on: such a centre as `vertex_sides` has, but for where a closed one
-/// starts.
+/// Returns the side of its tail that contains a half-edge's face, as in `vertex_sides` except for the start of
+/// a closed one.
 Centre side_of(const Level& level, HalfEdge corner);
 
 /// Returns for each vertex whether it is in no face, or in holes only.

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 
@@ -23,12 +23,12 @@ CurveSet::CurveSet(std::vector<std::shared_ptr<const LinearCurve>> curves) : cur
   }
 }
 
-CurveStencil CurveSet::stencil(const CurvePlace& sample, int order) const {
-  check_sample(sample, num_segments());
+CurveStencil CurveSet::stencil(const CurvePlace& place, int order) const {
+  check_sample(place, num_segments());
   const auto curve =
-      size_t(std::upper_bound(first_segment_.begin(), first_segment_.end(), sample.segment) - first_segment_.begin()) -
+      size_t(std::upper_bound(first_segment_.begin(), first_segment_.end(), place.segment) - first_segment_.begin()) -
       1;
-  CurveStencil result = curves_[curve]->stencil({sample.segment - first_segment_[curve], sample.t}, order);
+  CurveStencil result = curves_[curve]->stencil({place.segment - first_segment_[curve], place.t}, order);
   for (Index& point : result.unknowns) point += first_point_[curve];
   return result;
 }

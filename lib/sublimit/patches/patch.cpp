@@ -31,20 +31,20 @@ bool Patch::is_inside(const Place& s) const {
          (all.triangles ? s.u + s.v <= 1 : s.u <= 1 && s.v <= 1);
 }
 
-LimitStencil Patch::stencil(const Place& sample, int order) const {
+LimitStencil Patch::stencil(const Place& place, int order) const {
   check_order(order);
   const auto [size, triangles] = faces();
   const char* const shape = triangles ? "triangle" : "square";
-  if (sample.face < 0 || sample.face >= size)
-    throw InvalidParameter("face " + format_number(sample.face) + " does not exist; there are " + format_number(size) +
+  if (place.face < 0 || place.face >= size)
+    throw InvalidParameter("face " + format_number(place.face) + " does not exist; there are " + format_number(size) +
                            " " + shape + "s");
-  if (!is_inside(sample))
-    throw InvalidParameter("(" + format_number(sample.u) + ", " + format_number(sample.v) + ") is outside the " +
-                           shape + (triangles ? " u, v >= 0, u + v <= 1" : " 0 <= u, v <= 1"));
+  if (!is_inside(place))
+    throw InvalidParameter("(" + format_number(place.u) + ", " + format_number(place.v) + ") is outside the " + shape +
+                           (triangles ? " u, v >= 0, u + v <= 1" : " 0 <= u, v <= 1"));
   LimitStencil result;
   WeightRows weights;
-  result.status = rows(sample, order, weights);
-  const std::vector<Index> own = slots(sample.face);
+  result.status = rows(place, order, weights);
+  const std::vector<Index> own = slots(place.face);
   for (size_t i = 0; i < own.size(); ++i)
     if (!weights.col(Eigen::Index(i)).isZero(0)) result.vertices.push_back(own[i]);
   std::ranges::sort(result.vertices);
@@ -91,12 +91,12 @@ void set_empty(Eigen::Index count, int order, LimitSamples& out) {
   out.order.assign(static_cast<size_t>(count), 0);
 }
 
-void Patch::evaluate(const Points& columns, Coordinates coordinates, const Place& sample, int order, LimitSamples& out,
+void Patch::evaluate(const Points& columns, Coordinates coordinates, const Place& place, int order, LimitSamples& out,
                      Eigen::Index i) const {
-  if (!is_inside(sample)) return;
+  if (!is_inside(place)) return;
   WeightRows weights;
-  LimitStatus status = rows(sample, order, weights);
-  const RowValues at = row_values(weights, 2, columns(slots(sample.face), Eigen::all), coordinates, is_affine());
+  LimitStatus status = rows(place, order, weights);
+  const RowValues at = row_values(weights, 2, columns(slots(place.face), Eigen::all), coordinates, is_affine());
   out.status[size_t(i)] = at.is_pole ? LimitStatus::pole : status;
   if (at.is_pole) return;
   const Eigen::Index count = at.values.rows();
@@ -105,7 +105,7 @@ void Patch::evaluate(const Points& columns, Coordinates coordinates, const Place
   for (Eigen::Index k = 0; k < count; ++k) targets[k]->row(i) = at.values.row(k);
   if (order == 0) return;
   Eigen::Vector3d normal = count >= 3 ? plain_normal(at) : Eigen::Vector3d::Zero();
-  if (normal.isZero(0)) normal = limit_normal(columns, coordinates, sample);
+  if (normal.isZero(0)) normal = limit_normal(columns, coordinates, place);
   out.normal.row(i) = normal;
   if (normal.isZero(0)) out.status[size_t(i)] = LimitStatus::undefined_normal;
 }

@@ -99,12 +99,12 @@ FaceLengths PatchSet::lengths(Index face) const {
   return members_[p].patch->lengths(face - first_face_[p]);
 }
 
-LimitStencil PatchSet::stencil(const Place& sample, int order) const {
-  if (sample.face < 0 || sample.face >= faces().size)
-    throw InvalidParameter("face " + std::to_string(sample.face) + " does not exist; there are " +
+LimitStencil PatchSet::stencil(const Place& place, int order) const {
+  if (place.face < 0 || place.face >= faces().size)
+    throw InvalidParameter("face " + std::to_string(place.face) + " does not exist; there are " +
                            std::to_string(faces().size));
-  const size_t p = patch_of(sample.face);
-  const LimitStencil own = members_[p].patch->stencil({sample.face - first_face_[p], sample.u, sample.v}, order);
+  const size_t p = patch_of(place.face);
+  const LimitStencil own = members_[p].patch->stencil({place.face - first_face_[p], place.u, place.v}, order);
   // Points of the set ascend in another order, and several of the patch may be one of them.
   LimitStencil result{.status = own.status, .vertices = own.vertices, .weights = {}, .tangents = {}};
   for (Index& v : result.vertices) v = members_[p].points[size_t(v)];
@@ -125,8 +125,8 @@ LimitSamples PatchSet::evaluate(const Points& columns, std::span<const Place> sa
   check_order(order);
   check_columns(columns, num_points_, coordinates_);
   std::vector<char> is_used(members_.size());
-  for (const Place& sample : samples)
-    if (sample.face >= 0 && sample.face < faces().size) is_used[patch_of(sample.face)] = 1;
+  for (const Place& place : samples)
+    if (place.face >= 0 && place.face < faces().size) is_used[patch_of(place.face)] = 1;
   std::vector<Points> own(members_.size());
   parallel_for(std::ssize(members_), [&](std::int64_t p) {
     if (is_used[size_t(p)]) own[size_t(p)] = columns_of(size_t(p), columns);
@@ -136,11 +136,11 @@ LimitSamples PatchSet::evaluate(const Points& columns, std::span<const Place> sa
       std::ssize(samples),
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-          const Place& sample = samples[size_t(i)];
-          if (sample.face < 0 || sample.face >= faces().size) continue;
-          const size_t p = patch_of(sample.face);
-          members_[p].patch->evaluate(own[p], coordinates_, {sample.face - first_face_[p], sample.u, sample.v}, order,
-                                      all, i);
+          const Place& place = samples[size_t(i)];
+          if (place.face < 0 || place.face >= faces().size) continue;
+          const size_t p = patch_of(place.face);
+          members_[p].patch->evaluate(own[p], coordinates_, {place.face - first_face_[p], place.u, place.v}, order, all,
+                                      i);
         }
       },
       256);

@@ -28,7 +28,7 @@ Patches Patches::with(Points columns) const {
 }
 
 const PatchSet& Patches::set() const { return bound_->set; }
-const Points& Patches::points() const { return bound_->columns; }
+const Points& Patches::points() const& { return bound_->columns; }
 bool Patches::rational() const { return set().coordinates() == Coordinates::homogeneous; }
 Index Patches::num_patches() const { return static_cast<Index>(set().members().size()); }
 Index Patches::first_face(Index patch) const {

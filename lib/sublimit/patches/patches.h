@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sublimit/limit/place_stencils.h"
@@ -39,9 +40,10 @@ class Patches : public BoundSource {
   /// @throws InvalidParameter  columns of another size, or not finite
   Patches with(Points columns) const;
 
-  const PatchSet& set() const;   ///< the patches without points
-  const Points& points() const;  ///< control points: #points x 3, or x 4 if they are rational
-  bool rational() const;         ///< points are homogeneous
+  const PatchSet& set() const;    ///< the patches without points
+  const Points& points() const&;  ///< control points: #points x 3, or x 4 if they are rational
+  Points points() && { return std::as_const(*this).points(); }  ///< a copy, from temporaries
+  bool rational() const;                                        ///< points are homogeneous
   Index num_patches() const;
   Index first_face(Index patch) const;  ///< first face of a patch; for `num_patches()` the number of all faces
   FaceCount faces() const { return set().faces(); }
@@ -71,8 +73,8 @@ class Patches : public BoundSource {
   }
 
   /// Returns nearest points; include search/closest_point.h, whose `closest` it calls.
-  ClosestPoints closest(const Points& queries) const;
-  ClosestPoints closest(const Points& queries, const ClosestPointOptions& options) const;
+  ClosestPoints closest(const Points& points) const;
+  ClosestPoints closest(const Points& points, const ClosestPointOptions& options) const;
   /// Returns where rays meet the patches; include search/intersect.h, whose `intersect` it calls.
   RayHits intersect(const std::vector<Ray>& rays) const;
   RayHits intersect(const std::vector<Ray>& rays, const RayOptions& options) const;

@@ -11,10 +11,10 @@ CurvePlace SplineCurve::place(double t, KnotSide side) const {
   return {place.face, place.u};
 }
 
-CurveStencil SplineCurve::stencil(const CurvePlace& sample, int order) const {
+CurveStencil SplineCurve::stencil(const CurvePlace& place, int order) const {
   check_order(order);
-  check_sample(sample, num_segments());
-  PointRows rows = point_rows(knots_, {sample.segment, sample.t}, order);
+  check_sample(place, num_segments());
+  PointRows rows = point_rows(knots_, {place.segment, place.t}, order);
   return {.status = rows.sides_differ ? LimitStatus::crease : LimitStatus::regular,
           .unknowns = std::move(rows.points),
           .weights = std::move(rows.weights)};

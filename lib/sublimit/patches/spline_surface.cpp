@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/uninitialized.h"
 #include "sublimit/patches/detail/collapsed_side.h"
 #include "sublimit/patches/detail/finer_knots.h"
@@ -76,8 +76,8 @@ std::vector<Index> SplineSurface::slots(Index face) const {
   return points;
 }
 
-LimitStatus SplineSurface::rows(const Place& sample, int order, WeightRows& weights) const {
-  const KnotPlace<double> at_u = u_place(sample), at_v = v_place(sample);
+LimitStatus SplineSurface::rows(const Place& place, int order, WeightRows& weights) const {
+  const KnotPlace<double> at_u = u_place(place), at_v = v_place(place);
   const Eigen::Index m = u_.degree() + 1, n = v_.degree() + 1;
   std::array<double, 3 * (max_degree + 1)> in_u, in_v;
   span_rows(u_, at_u.face, at_u.u, order, std::span<double>(in_u).first(size_t((order + 1) * m)));
@@ -132,8 +132,8 @@ Patch::Net SplineSurface::net() const {
   return net;
 }
 
-Eigen::Vector3d SplineSurface::limit_normal(const Points& columns, Coordinates coordinates, const Place& sample) const {
-  return collapsed_side_normal(*this, columns, coordinates, sample);
+Eigen::Vector3d SplineSurface::limit_normal(const Points& columns, Coordinates coordinates, const Place& place) const {
+  return collapsed_side_normal(*this, columns, coordinates, place);
 }
 
 SplineSurface halved(const SplineSurface& surface) { return {halved_knots(surface.u()), halved_knots(surface.v())}; }

@@ -7,6 +7,7 @@
 //   const LimitSurface your_own(mesh, my_scheme);  // a Scheme<double>, see scheme.h
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "sublimit/mesh/mesh.h"
 #include "sublimit/scheme/scheme.h"
@@ -28,7 +29,8 @@ class AnyScheme {
   AnyScheme(const AnyScheme&) = default;
   AnyScheme& operator=(const AnyScheme&) = default;
 
-  const Scheme<double>& operator*() const { return *scheme_; }
+  const Scheme<double>& operator*() const& { return *scheme_; }
+  Scheme<double> operator*() && { return *scheme_; }  ///< a copy, from temporaries
   const Scheme<double>* operator->() const { return scheme_.get(); }
 
   /// Returns the scheme with the rule for triangles that a mesh names (`Mesh::triangles`), if the scheme has such an

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/core/moved_sparse.h"
 #include "sublimit/mesh/mesh.h"
 #include "sublimit/scheme/subdivision_matrix.h"
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/base/detail/huge_pages.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"

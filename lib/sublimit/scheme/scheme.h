@@ -50,10 +50,10 @@ struct Claims {
 /// those of the library may.
 template <class T>
 struct Scheme {
-  std::string name;
-  std::string source;  ///< author, year, title
-  std::vector<Step<T>> steps;
-  CreaseMasks<T> creases;
+  std::string name = {};
+  std::string source = {};  ///< author, year, title
+  std::vector<Step<T>> steps = {};
+  CreaseMasks<T> creases = {};
   Claims claims = {};
   std::vector<OptionInfo> options = {};  ///< options of the scheme
   SchemeOptions chosen = {};             ///< options that were given; others have their defaults

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/limit/detail/limit_cells.h"
 #include "sublimit/patches/patches.h"
@@ -161,8 +161,11 @@ struct Proof {
 
 void check(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& options) {
   const std::span<const Place> guess = options.guess;
-  if (options.count < 1)
-    throw InvalidParameter(std::to_string(options.count) + " nearest faces were asked for; 1 or more are right");
+  if (options.nearest < 1)
+    throw InvalidParameter(std::to_string(options.nearest) + " nearest faces were asked for; 1 or more are right");
+  if (options.most_cells < 1)
+    throw InvalidParameter("a search of " + std::to_string(options.most_cells) +
+                           " cells for each face finds nothing; 1 or more are right");
   if (!(options.radius >= 0)) throw InvalidParameter("a radius is not below 0, and a number");
   if (queries.cols() != 3)
     throw InvalidParameter("points to project have " + std::to_string(queries.cols()) + " coordinates, not 3");
@@ -207,7 +210,7 @@ ClosestPoints closest(const SearchedSurface& surface, const Points& queries, con
   const BoundSource& bound = surface.samples();
   const double size = tree.nodes()[0].box.sizes().norm();
   const bool triangles = surface.faces().triangles;
-  const auto most = size_t(std::min<Index>(options.count, surface.faces().size));
+  const auto most = size_t(std::min<Index>(options.nearest, surface.faces().size));
   const Search search{cells, tree, 1e-13 * size, std::int64_t(most) * options.most_cells, triangles};
   std::optional<DistanceBound> bound_of;
   if (options.prove) bound_of.emplace(surface);

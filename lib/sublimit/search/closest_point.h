@@ -5,7 +5,7 @@
 //   const LimitSurface surface(read_mesh("torus.obj"), "catmull-clark");
 //   const ClosestPoints near = closest(surface, Points{{2, 0, 0}, {0, 1, 3}});
 //   near.points.row(0), near.distances[0], near.places[0];
-//   const ClosestPoints within = closest(surface, Points{{2, 0, 0}}, {.count = 8, .radius = 0.5});
+//   const ClosestPoints within = closest(surface, Points{{2, 0, 0}}, {.nearest = 8, .radius = 0.5});
 //
 // Cells of the surface are searched in the order of their boxes' distances, each by Newton's method, until no box is
 // nearer than the best point. Boxes of polynomial pieces certainly contain them; those of schemes without polynomials
@@ -34,7 +34,7 @@ class SearchedSurface;
 
 /// Nearest points, in rows. Plain data.
 struct [[nodiscard]] ClosestPoints {
-  /// Rows of query i are [first[i], first[i + 1]), the nearest first: one each, unless `count` or `radius` was given.
+  /// Rows of query i are [first[i], first[i + 1]), the nearest first: one each, unless `nearest` or `radius` was given.
   std::vector<std::int64_t> first;
   std::vector<Place> places;        ///< place of each point
   Points points;                    ///< points of the surface, #rows x 3
@@ -54,7 +54,7 @@ struct ClosestPointOptions {
   std::span<const Place> guess = {};
   int most_cells = 2000;  ///< largest number of cells to search for each face of a point, and to use in its proof
   bool prove = true;      ///< compute `lower`, which is empty otherwise
-  int count = 1;          ///< number of faces, each with its nearest point; fewer if there are no more
+  int nearest = 1;        ///< number of nearest faces, each with its nearest point; fewer if there are no more
   double radius = std::numeric_limits<double>::infinity();  ///< points farther away are left out, up to rounding
   /// Give points inside a closed surface, those with a winding number that is not 0, negative distances.
   bool is_signed = false;
@@ -64,18 +64,18 @@ struct ClosestPointOptions {
 /// number of threads.
 /// @param queries  #queries x 3
 /// @throws InvalidParameter     shapes that do not fit, queries that are not finite or beyond 1e150: says which;
-///                              guesses on no face; a count below 1, a radius below 0
+///                              guesses on no face; `nearest` below 1, a radius below 0
 /// @throws InvalidMesh          no face that is not a hole
 /// @throws UnsupportedTopology  signed distances from a surface that is not closed: says where
 ClosestPoints closest(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& options = {});
 /// Returns nearest points of a limit surface.
-/// @param queries  #queries x 3
+/// @param points  the queries, #queries x 3
 /// @throws as for `SearchedSurface`
-ClosestPoints closest(const LimitSurface& surface, const Points& queries, const ClosestPointOptions& options = {});
+ClosestPoints closest(const LimitSurface& surface, const Points& points, const ClosestPointOptions& options = {});
 /// Returns nearest points of classical patches.
-/// @param queries  #queries x 3
+/// @param points  the queries, #queries x 3
 /// @throws as for `SearchedSurface`
-ClosestPoints closest(const Patches& patches, const Points& queries, const ClosestPointOptions& options = {});
+ClosestPoints closest(const Patches& patches, const Points& points, const ClosestPointOptions& options = {});
 /// Returns nearest points of a limit map with given control points.
 /// @param control  control points of the map's level, #V x 3
 /// @param queries  #queries x 3

@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/patches/patches.h"
 #include "sublimit/search/closest_point.h"

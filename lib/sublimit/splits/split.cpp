@@ -5,9 +5,9 @@
 #include <limits>
 #include <string>
 
+#include "sublimit/base/detail/huge_pages.h"
 #include "sublimit/base/detail/interruption.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/huge_pages.h"
 #include "sublimit/splits/detail/primal.h"
 #include "sublimit/splits/detail/sheets.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/limit/detail/limit_patches.h"
 #include "sublimit/tessellation/detail/cell_polygon.h"
 #include "sublimit/tessellation/detail/cell_vertices.h"

@@ -3,7 +3,6 @@
 #include "sublimit/base/error.h"
 
 #include "module.h"
-#include "sublimit/limit/no_limit.h"
 
 namespace sublimit::python {
 namespace {
@@ -24,8 +23,6 @@ void add_errors(pybind11::module_& m) {
   pybind11::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
-    } catch (const NoLimit& error) {  // not a fault of ours: a mesh that the scheme has no limit of
-      raise(ErrorCode::unsupported_topology, error.what());
     } catch (const Error& error) {
       raise(error.code(), error.what());
     }

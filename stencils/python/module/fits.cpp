@@ -77,8 +77,7 @@ py::dict fit_to_places(const Mesh& mesh, const MeshRequest& request, const Array
 py::dict fit_to_cloud(const Mesh& mesh, const MeshRequest& request, const Array<double>& cloud, const Vectors& weight,
                       const Fairness& fairness, const std::vector<double>& schedule, const Array<Index>& pins,
                       int iterations, double tolerance, int threads) {
-  CloudFitOptions options{
-      .fairness = fairness, .schedule = schedule, .max_iterations = iterations, .tolerance = tolerance};
+  CloudFitOptions options{.fairness = fairness, .schedule = schedule, .iterations = iterations, .tolerance = tolerance};
   options.pins.vertices = vector(pins);
   const Cloud near{points(cloud), weights(weight)};
   CloudFit found = without_gil([&] {

@@ -16,8 +16,8 @@
 #include "module.h"
 #include "own_stencils.h"
 #include "sublimit/report/analysis/scheme_report.h"
-#include "sublimit/scheme/check_scheme.h"
 #include "sublimit/scheme/cubic_bspline_creases.h"
+#include "sublimit/scheme/detail/check_scheme.h"
 #include "sublimit/schemes/schemes.h"
 
 namespace sublimit::python {

@@ -60,13 +60,19 @@ py::dict implicit_of(const std::string& field, const MeshRequest& request, int c
   return all;
 }
 
+/// @throws InvalidOption  another word
+StepJoin step_join(const std::string& word) {
+  if (word != "g0" && word != "g1") throw InvalidOption("join is '" + word + "'; 'g0' or 'g1' are right");
+  return word == "g1" ? StepJoin::g1 : StepJoin::g0;
+}
+
 template <class Surface>
 py::dict step_of(const Surface& surface, const std::filesystem::path& path, std::optional<double> tolerance,
-                 bool join_smoothly, bool pack, const std::vector<std::string>& names, int threads) {
+                 const std::string& join, bool pack, const std::vector<std::string>& names, int threads) {
   const StepFile written = without_gil([&] {
     const Threads held(threads);
     const StepOptions options{
-        .tolerance = tolerance, .join_smoothly = join_smoothly, .pack = pack, .face_names = face_names(names)};
+        .tolerance = tolerance, .join = step_join(join), .pack = pack, .face_names = face_names(names)};
     check_step(path, options);
     return write_step(surface, path, options, loaded_cad_file());
   });
@@ -85,10 +91,10 @@ template <class Source, class Of>
 void add_step(py::module_& m, const Of& of) {
   m.def(
       "step",
-      [of](const Source& source, const std::filesystem::path& path, std::optional<double> tolerance, bool join_smoothly,
-           bool pack, const std::vector<std::string>& names,
-           int threads) { return step_of(of(source), path, tolerance, join_smoothly, pack, names, threads); },
-      py::arg("surface"), py::arg("path"), py::arg("tolerance"), py::arg("join_smoothly"), py::arg("pack"),
+      [of](const Source& source, const std::filesystem::path& path, std::optional<double> tolerance,
+           const std::string& join, bool pack, const std::vector<std::string>& names,
+           int threads) { return step_of(of(source), path, tolerance, join, pack, names, threads); },
+      py::arg("surface"), py::arg("path"), py::arg("tolerance"), py::arg("join"), py::arg("pack"),
       py::arg("face_names"), py::arg("threads"));
 }
 

@@ -16,14 +16,15 @@
 #include "calls.h"
 #include "module.h"
 #include "sources.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/uninitialized.h"
 #include "sublimit/limit/curvature.h"
 #include "sublimit/limit/place_stencils.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
+#include "sublimit/stencils/jobs/detail/tessellated_job.h"
 #include "sublimit/sublimit.h"
 
 namespace sublimit::python {
@@ -130,12 +131,12 @@ void add_places(py::dict& all, const std::vector<Place>& places) {
   all["v"] = array(std::move(v));
 }
 
-py::dict closest(const Source& surface, const Array<double>& queries, int count, double radius, bool is_signed,
+py::dict closest(const Source& surface, const Array<double>& queries, int nearest, double radius, bool is_signed,
                  int threads) {
   const Points from = points(queries);
   ClosestPoints found = without_gil([&] {
     const Threads held(threads);
-    return surface.closest(from, {.count = count, .radius = radius, .is_signed = is_signed});
+    return surface.closest(from, {.nearest = nearest, .radius = radius, .is_signed = is_signed});
   });
   py::dict all;
   add_places(all, found.places);
@@ -239,19 +240,7 @@ std::shared_ptr<Mesh> tessellate_mesh(const Mesh& mesh, const MeshRequest& reque
     MeshJob job = mesh_job(request, mesh, "mesh");
     if (rates.second.size() > 0)
       options.rates = rates_of_edges(LimitSurface(job.mesh, *job.scheme).map().level().topology(), rates);
-    job.mesh.face_varying_interpolation = job.face_varying;
-    std::string why;
-    try {
-      return std::make_shared<Mesh>(tessellate(job.mesh, *job.scheme, options));
-    } catch (const Error& error) {
-      const bool unable = error.code() == ErrorCode::unsupported_topology || error.code() == ErrorCode::invalid_option;
-      if (!unable || job.face_varying_asked || job.mesh.face_varying.empty()) throw;
-      why = error.what();
-    }
-    job.mesh.face_varying.clear();
-    auto made = std::make_shared<Mesh>(tessellate(job.mesh, *job.scheme, options));
-    made->warnings.push_back("texture coordinates are left out: " + why);
-    return made;
+    return std::make_shared<Mesh>(tessellated_mesh(job, options));
   });
 }
 
@@ -284,7 +273,7 @@ void add_surfaces(py::module_& m) {
            py::arg("threads"))
       .def("stencils", &stencils, py::arg("face"), py::arg("u"), py::arg("v"), py::arg("derivatives"),
            py::arg("threads"))
-      .def("closest", &closest, py::arg("points"), py::arg("count"), py::arg("radius"), py::arg("is_signed"),
+      .def("closest", &closest, py::arg("points"), py::arg("nearest"), py::arg("radius"), py::arg("is_signed"),
            py::arg("threads"))
       .def("intersect", &intersect, py::arg("origins"), py::arg("directions"), py::arg("tmin"), py::arg("tmax"),
            py::arg("all"), py::arg("most_parts"), py::arg("threads"));

@@ -106,6 +106,14 @@ py::tuple faces(const TableOf<Real>& table) {
                         array(std::vector<Index>(found.corners.begin(), found.corners.end())));
 }
 
+/// The point of each vertex of the refined mesh; None if the table was baked without.
+template <class Real>
+py::object refined_points(const TableOf<Real>& table) {
+  const std::span<const std::int64_t> points = table.all().refined_points();
+  if (points.empty()) return py::none();
+  return array(std::vector<std::int64_t>(points.begin(), points.end()));
+}
+
 /// (face, (u, v)) of each point of a list of places or a grid.
 template <class Real>
 py::object addresses(const TableOf<Real>& table) {
@@ -151,6 +159,7 @@ void add_table(py::module_& m, const char* name) {
       .def_property_readonly("statuses", [](const Of& t) { return array(statuses_of(t.baked())); })
       .def_property_readonly("status_words", [](const Of& t) { return t.info().statuses; })
       .def("faces", &faces<Real>)
+      .def("refined_points", &refined_points<Real>)
       .def("addresses", &addresses<Real>)
       .def("apply", &apply<Real>, py::arg("points"), py::arg("result"), py::arg("threads"), py::arg("gpu"),
            py::arg("divided"))
@@ -173,8 +182,8 @@ using Places = std::tuple<Array<Index>, Array<double>, Array<double>>;
 
 void set_places(BakeOptions& options, const Places& at) {
   const auto& [face, u, v] = at;
-  options.places.resize(size_t(face.size()));
-  for (size_t i = 0; i < options.places.size(); ++i) options.places[i] = {face.data()[i], u.data()[i], v.data()[i]};
+  options.at.resize(size_t(face.size()));
+  for (size_t i = 0; i < options.at.size(); ++i) options.at[i] = {face.data()[i], u.data()[i], v.data()[i]};
 }
 
 /// @param corners  of triangles between the places, three each
@@ -213,6 +222,7 @@ void add_tables(py::module_& m) {
       .def_readwrite("grid", &BakeOptions::grid)
       .def_readwrite("derivatives", &BakeOptions::derivatives)
       .def_readwrite("in_double", &BakeOptions::in_double)
+      .def_readwrite("order", &BakeOptions::order)
       .def("set_places", &set_places, py::arg("at"))
       .def("set_triangles", &set_triangles, py::arg("corners"));
   m.def("bake", &bake_mesh, py::arg("mesh"), py::arg("request"), py::arg("options"), py::arg("threads"));

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._errors import InvalidParameter
+
 Floats = npt.NDArray[np.float64]
 Floats32 = npt.NDArray[np.float32]
 Ints = npt.NDArray[np.int32]
@@ -22,21 +24,21 @@ def _array(values: Any, name: str) -> npt.NDArray[Any]:
     values = of_others(values)
     if isinstance(values, np.ma.MaskedArray):
         if np.any(values.mask):
-            raise ValueError(f"{name} has masked entries; fill them, or leave them out")
+            raise InvalidParameter(f"{name} has masked entries; fill them, or leave them out")
         values = values.data
     try:
         array = np.asarray(values)
     except ValueError:
-        raise ValueError(f"{name} is ragged: its rows are not of one length") from None
+        raise InvalidParameter(f"{name} is ragged: its rows are not of one length") from None
     if array.dtype == object:
-        raise ValueError(f"{name} is an array of objects: its rows are not of one length, or no numbers")
+        raise InvalidParameter(f"{name} is an array of objects: its rows are not of one length, or no numbers")
     return array
 
 
 def _shape(array: npt.NDArray[Any], name: str, shape: tuple[int | None, ...], what: str) -> None:
     right = array.ndim == len(shape) and all(n in (None, m) for n, m in zip(shape, array.shape))
     if not right:
-        raise ValueError(f"{name} has shape {array.shape}; {what} is right")
+        raise InvalidParameter(f"{name} has shape {array.shape}; {what} is right")
 
 
 def floats(values: Any, name: str, shape: tuple[int | None, ...], what: str, *, finite: bool = True) -> Floats:
@@ -51,12 +53,12 @@ def floats(values: Any, name: str, shape: tuple[int | None, ...], what: str, *, 
     if array.size == 0 and array.ndim == 1 and len(shape) > 1:
         array = array.reshape((0, *(n or 0 for n in shape[1:])))  # of an empty list nobody knows how wide it is
     if array.dtype.kind not in "fiu":
-        raise ValueError(f"{name} has dtype {array.dtype}; real numbers are right")
+        raise InvalidParameter(f"{name} has dtype {array.dtype}; real numbers are right")
     _shape(array, name, shape, what)
     array = np.ascontiguousarray(array, dtype=np.float64)
     if finite and not np.isfinite(array).all():
         row = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-        raise ValueError(f"{name}[{', '.join(map(str, row))}] is {array[row]}; finite numbers are right")
+        raise InvalidParameter(f"{name}[{', '.join(map(str, row))}] is {array[row]}; finite numbers are right")
     return array
 
 
@@ -68,13 +70,13 @@ def ints(values: Any, name: str, shape: tuple[int | None, ...], what: str) -> In
         if array.ndim == 1 and len(shape) > 1:
             array = array.reshape((0, *(n or 0 for n in shape[1:])))
     if array.dtype.kind not in "iu":
-        raise ValueError(f"{name} has dtype {array.dtype}; whole numbers are right")
+        raise InvalidParameter(f"{name} has dtype {array.dtype}; whole numbers are right")
     _shape(array, name, shape, what)
     if array.dtype.itemsize > 4 or array.dtype == np.uint32:
         limits = np.iinfo(np.int32)
         outside = (array > limits.max) | (array < limits.min) if array.size else np.zeros(0, bool)
         if outside.any():
-            raise ValueError(f"{name} has {array[outside][0]}; 32-bit numbers are right")
+            raise InvalidParameter(f"{name} has {array[outside][0]}; 32-bit numbers are right")
     return np.ascontiguousarray(array, dtype=np.int32)
 
 

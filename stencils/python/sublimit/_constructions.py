@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _sublimit
 from ._curves import Curves
+from ._errors import InvalidParameter
 from ._patches import Patches
 
 Recipe = Union[str, "os.PathLike[str]", Mapping[str, Any]]
@@ -126,7 +127,7 @@ def recipe_bytes(recipe: Recipe, name: str) -> bytes:
             return json.dumps(dict(recipe), allow_nan=False, default=_plain).encode()
         except ValueError as error:  # JSON has no numbers that are not finite
             what = "a number that is not finite" if "JSON compliant" in str(error) else str(error)
-            raise ValueError(f"{name} has {what}") from None
+            raise InvalidParameter(f"{name} has {what}") from None
         except TypeError as error:
             raise TypeError(f"{name}: {error}") from None
     if isinstance(recipe, str) and recipe.lstrip(" \t\r\n").startswith("{"):

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
+from ._errors import InvalidParameter
 from ._levels import csr
 from ._schemes import Scheme, curve_scheme
 from ._surfaces import SampledParts, order
@@ -207,6 +208,6 @@ def _places(segment: npt.ArrayLike, t: npt.ArrayLike) -> tuple[arrays.Ints, arra
     try:
         segments, at = np.broadcast_arrays(np.asarray(segment), np.asarray(t))
     except ValueError:
-        raise ValueError(f"segment and t do not broadcast to one shape: {np.shape(segment)}, {np.shape(t)}") from None
+        raise InvalidParameter(f"segment and t do not broadcast to one shape: {np.shape(segment)}, {np.shape(t)}") from None
     return (arrays.ints(segments.reshape(-1), "segment", (None,), "whole numbers"),
             arrays.floats(at.reshape(-1), "t", (None,), "real numbers", finite=False), segments.shape)

@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 
 from . import _sublimit
+from ._errors import InvalidOption
 
 
 @dataclass(frozen=True)
@@ -54,5 +55,5 @@ def number_of(device: str) -> int | None:
         return None
     found = re.fullmatch("gpu(?::([0-9]{1,4}))?", device) if isinstance(device, str) else None
     if found is None:
-        raise ValueError(f"device is {device!r}; 'cpu', 'gpu' or 'gpu:1' are right")
+        raise InvalidOption(f"device is {device!r}; 'cpu', 'gpu' or 'gpu:1' are right")
     return int(found[1] or 0)

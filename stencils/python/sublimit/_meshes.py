@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
+from ._errors import InvalidMesh, InvalidParameter
 from ._schemes import Scheme, request
 
 Points = npt.ArrayLike
@@ -47,7 +48,7 @@ class Mesh:
 
     Raises
     ------
-    ValueError
+    InvalidParameter
         An array of another shape or type; NaN and infinite points.
     InvalidMesh
         Faces or tags that name what is not there, faces of two corners.
@@ -76,9 +77,9 @@ class Mesh:
         positions = arrays.floats(points, "points", (None, 3), "(vertices, 3)")
         sizes, vertices = arrays.faces(faces)
         if uv is None and uv_faces is not None:
-            raise ValueError("uv_faces says which values corners have, but there is no uv")
+            raise InvalidMesh("uv_faces says which values corners have, but there is no uv")
         if normals is None and face_normals is not None:
-            raise ValueError("face_normals says which normals corners have, but there are no normals")
+            raise InvalidMesh("face_normals says which normals corners have, but there are no normals")
         self._core = _sublimit.Mesh(
             positions, sizes, vertices, _creases(creases), _corners(corners),
             arrays.ints([] if holes is None else holes, "holes", (None,), "(holes,)"), boundary,
@@ -110,12 +111,12 @@ class Mesh:
 
         Raises
         ------
-        ValueError
+        InvalidParameter
             They are not.
         """
         sizes, vertices = self.faces
         if len(sizes) == 0 or (sizes != sizes[0]).any():
-            raise ValueError(f"faces have {sorted(set(sizes.tolist()))} corners; faces of one size make an array")
+            raise InvalidParameter(f"faces have {sorted(set(sizes.tolist()))} corners; faces of one size make an array")
         return vertices.reshape(len(sizes), int(sizes[0]))
 
     @property
@@ -183,7 +184,7 @@ class Mesh:
 
         Raises
         ------
-        ValueError
+        InvalidParameter
             An array of another shape or type; NaN and infinite points.
 
         Examples
@@ -345,7 +346,7 @@ def _sharp_rows(values: Any, name: str, columns: int, words: str) -> arrays.Floa
     rows = tag_rows(values, name, columns, words)
     if np.isnan(rows[:, -1]).any():
         row = int(np.argmax(np.isnan(rows[:, -1])))
-        raise ValueError(f"{name}[{row}] has sharpness nan; 0 to infinity is right")
+        raise InvalidMesh(f"{name}[{row}] has sharpness nan; 0 to infinity is right")
     return rows
 
 
@@ -355,15 +356,15 @@ def _joined(first: npt.NDArray[Any], second: npt.NDArray[Any], name: str, column
     if is_pair and first.dtype.kind not in "iu" and first.size > 0:
         is_pair = False
     if is_pair and columns == 2 and len(first) == 2 and second.dtype.kind in "iu":
-        raise ValueError(f"{name} is two arrays of two whole numbers, which may be (vertices, sharpness) or two rows; give a "
-                         "list of rows, or sharpness in float")
+        raise InvalidParameter(f"{name} is two arrays of two whole numbers, which may be (vertices, sharpness) or two rows; give a "
+                               "list of rows, or sharpness in float")
     return np.column_stack([first, second]) if is_pair else [first, second]
 
 
 def whole(column: arrays.Floats, name: str, what: str = "vertex") -> arrays.Ints:
     wrong = ~(column == np.floor(column)) | (np.abs(column) > 2**31 - 1)
     if wrong.any():
-        raise ValueError(f"{name} names {what} {column[wrong][0]:.17g}; whole numbers are right")
+        raise InvalidMesh(f"{name} names {what} {column[wrong][0]:.17g}; whole numbers are right")
     return np.ascontiguousarray(column, dtype=np.int32)
 
 
@@ -381,17 +382,17 @@ def _channel(uv: Any, uv_faces: Any, sizes: arrays.Ints, vertices: arrays.Ints,
              num_points: int) -> tuple[arrays.Floats, arrays.Ints]:
     values = arrays.floats(uv, "uv", (None, None), "(values, 1 to 3)")
     if not 1 <= values.shape[1] <= 3:
-        raise ValueError(f"uv has shape {values.shape}; (values, 1 to 3) is right")
+        raise InvalidParameter(f"uv has shape {values.shape}; (values, 1 to 3) is right")
     if uv_faces is None:
         if len(values) == len(vertices):
             return values, np.arange(len(vertices), dtype=np.int32)
         if len(values) == num_points:
             return values, vertices
-        raise ValueError(f"uv has {len(values)} values; {num_points} of vertices or {len(vertices)} of corners are right, "
-                         "or uv_faces to say which corner has which")
+        raise InvalidMesh(f"uv has {len(values)} values; {num_points} of vertices or {len(vertices)} of corners are right, "
+                          "or uv_faces to say which corner has which")
     indices = _of_corners(uv_faces, "uv_faces", sizes, vertices)
     if len(indices) and not 0 <= indices.min() <= indices.max() < len(values):
-        raise ValueError(f"uv_faces names value {indices.max() if indices.min() >= 0 else indices.min()}; uv has {len(values)}")
+        raise InvalidMesh(f"uv_faces names value {indices.max() if indices.min() >= 0 else indices.min()}; uv has {len(values)}")
     return values, indices
 
 
@@ -403,12 +404,12 @@ def _normals(normals: Any, face_normals: Any, sizes: arrays.Ints, vertices: arra
             return values, np.zeros(0, np.int32)
         if len(values) == len(vertices):
             return values, np.arange(len(vertices), dtype=np.int32)
-        raise ValueError(f"normals has {len(values)} rows; {num_points} of vertices or {len(vertices)} of corners are right, or "
-                         "face_normals to say which corner has which")
+        raise InvalidMesh(f"normals has {len(values)} rows; {num_points} of vertices or {len(vertices)} of corners are right, or "
+                          "face_normals to say which corner has which")
     indices = _of_corners(face_normals, "face_normals", sizes, vertices)
     if len(indices) and not -1 <= indices.min() <= indices.max() < len(values):
-        raise ValueError(f"face_normals names normal {indices.max() if indices.min() >= -1 else indices.min()}; normals has "
-                         f"{len(values)}, and -1 is none")
+        raise InvalidMesh(f"face_normals names normal {indices.max() if indices.min() >= -1 else indices.min()}; normals has "
+                          f"{len(values)}, and -1 is none")
     return values, indices
 
 
@@ -420,7 +421,7 @@ def _of_corners(values: Any, name: str, sizes: arrays.Ints, vertices: arrays.Int
     else:
         indices = arrays.faces(values, name)[1]
     if len(indices) != len(vertices):
-        raise ValueError(f"{name} has {len(indices)} corners; the {len(sizes)} faces have {len(vertices)}")
+        raise InvalidMesh(f"{name} has {len(indices)} corners; the {len(sizes)} faces have {len(vertices)}")
     return indices
 
 
@@ -435,5 +436,5 @@ def names_of(names: Iterable[str] | None, num_faces: int | None = None) -> list[
         if not isinstance(name, str):
             raise TypeError(f"face_names[{i}] is a {type(name).__name__}; a str is right, empty for none")
     if num_faces is not None and len(all_of_them) != num_faces:
-        raise ValueError(f"face_names has {len(all_of_them)} names; {num_faces} are right, one for each face")
+        raise InvalidMesh(f"face_names has {len(all_of_them)} names; {num_faces} are right, one for each face")
     return [name.encode("utf-8", "surrogateescape") for name in all_of_them]

@@ -96,7 +96,7 @@ def implicit(field: Recipe, scheme: Scheme | str = "catmull-clark", *, cells: in
 
 
 def step(surface: LimitSurface | Patches, path: str | os.PathLike[str], *, tolerance: float | None = None,
-         join_smoothly: bool = False, pack: bool = True, face_names: Iterable[str] | None = None, threads: int = 0) -> StepFile:
+         join: str = "g0", pack: bool = True, face_names: Iterable[str] | None = None, threads: int = 0) -> StepFile:
     """Writes a surface for CAD programs: exact B-spline faces with shared edges, solids where it is closed.
 
     Holes are left out. Of `Patches` each is a face.
@@ -106,7 +106,7 @@ def step(surface: LimitSurface | Patches, path: str | os.PathLike[str], *, toler
     path : .step, .stp or .brep. The file appears whole or not at all
     tolerance : largest distance of the caps around extraordinary vertices from the limit, a length (default: 1e-5 of the
         diagonal of the control points). Of patches: of sides that are one edge (default: 1e-9 of it)
-    join_smoothly : caps meet their neighbours with a common tangent plane, under schemes of quadrilaterals
+    join : ``"g0"``, or ``"g1"``: caps meet their neighbours with a common tangent plane, under schemes of quadrilaterals
     pack : regular faces become the largest B-splines that keep knots and smoothness
     face_names : a name for each face of the mesh, empty for none, such as `Mesh.face_names`; only faces of one name are packed
     threads : at most so many (default: all)
@@ -114,7 +114,7 @@ def step(surface: LimitSurface | Patches, path: str | os.PathLike[str], *, toler
     Raises
     ------
     InvalidOption
-        Another extension. The part with OpenCASCADE is not here: the message has its package, and how to build it.
+        Another extension, another word for `join`. The part with OpenCASCADE is not here: the message has its package, and how to build it.
     InvalidParameter
         A tolerance that is not positive; names that are not one for each face.
     InvalidMesh
@@ -129,4 +129,4 @@ def step(surface: LimitSurface | Patches, path: str | os.PathLike[str], *, toler
     if not isinstance(surface, (LimitSurface, Patches)):
         raise TypeError(f"surface is a {type(surface).__name__}; a sublimit.LimitSurface or sublimit.Patches is right")
     return StepFile(**_sublimit.step(surface._core, os.fspath(path), None if tolerance is None else float(tolerance),
-                                     bool(join_smoothly), bool(pack), names_of(face_names), threads))
+                                     join, bool(pack), names_of(face_names), threads))

@@ -61,7 +61,7 @@ class Patches(Source):
 
         Raises
         ------
-        ValueError
+        InvalidParameter
             An array of another shape or type; NaN and infinite points.
         """
         shape = self._core.columns.shape

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
+from ._errors import InvalidParameter
 from ._levels import core_of, csr, warn_of
 from ._meshes import Mesh, tag_rows, whole
 from ._schemes import OptionValue, Scheme, request
@@ -111,11 +112,11 @@ class Samples(SampledParts):
 
         Raises
         ------
-        ValueError
+        InvalidParameter
             The samples were taken with fewer derivatives.
         """
         if "duu" not in self._parts:
-            raise ValueError("curvature needs second derivatives: evaluate(..., derivatives=2)")
+            raise InvalidParameter("curvature needs second derivatives: evaluate(..., derivatives=2)")
         shape = self.status.shape
         du, dv, duu, duv, dvv, normals = (np.ascontiguousarray(part, dtype=np.float64).reshape(-1, 3) for part in (
             self.du, self.dv, self.duu, self.duv, self.dvv, self.normals))
@@ -127,7 +128,7 @@ class Samples(SampledParts):
 
 @dataclass(frozen=True)
 class ClosestPoints:
-    """Nearest points of a surface, a row each: n of n points, unless ``count`` or ``radius`` was given.
+    """Nearest points of a surface, a row each: n of n points, unless ``nearest`` or ``radius`` was given.
 
     Attributes
     ----------
@@ -272,14 +273,14 @@ class Source:
         faces, at_u, at_v, _ = places(face, u, v)
         return [csr(parts) for parts in self._core.stencils(faces, at_u, at_v, order(derivatives), threads)[0]]
 
-    def closest(self, points: npt.ArrayLike, *, count: int = 1, radius: float = math.inf, signed: bool = False,
+    def closest(self, points: npt.ArrayLike, *, nearest: int = 1, radius: float = math.inf, signed: bool = False,
                 threads: int = 0) -> ClosestPoints:
         """Nearest points of the surface.
 
         Parameters
         ----------
         points : (n, 3)
-        count : nearest faces of each point, with the nearest place on each; fewer where there are no more
+        nearest : number of nearest faces of each point, with the nearest place on each; fewer where there are no more
         radius : what is farther is left out
         signed : distances of points inside are below 0
 
@@ -295,7 +296,7 @@ class Source:
         >>> sublimit.LimitSurface(sheet, "bilinear").closest([[0.25, 0.5, 2]]).distance
         array([2.])
         """
-        return ClosestPoints(**self._core.closest(arrays.floats(points, "points", (None, 3), "(n, 3)"), operator.index(count),
+        return ClosestPoints(**self._core.closest(arrays.floats(points, "points", (None, 3), "(n, 3)"), operator.index(nearest),
                                                   float(radius), bool(signed), threads))
 
     def intersect(self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: npt.ArrayLike = 0,
@@ -335,8 +336,8 @@ class Source:
             ends = [np.broadcast_to(arrays.floats(t, name, (None,) * min(1, np.ndim(t)), "(n,) or a number", finite=False), shape[:1])
                     for t, name in ((tmin, "tmin"), (tmax, "tmax"))]
         except ValueError as error:
-            raise ValueError(f"rays do not fit together: origins {from_.shape}, directions {along.shape}, tmin {np.shape(tmin)}, "
-                             f"tmax {np.shape(tmax)}; (n, 3) or (3,), and (n,) or numbers, are right") from error
+            raise InvalidParameter(f"rays do not fit together: origins {from_.shape}, directions {along.shape}, tmin {np.shape(tmin)}, "
+                                   f"tmax {np.shape(tmax)}; (n, 3) or (3,), and (n,) or numbers, are right") from error
         from_, along = (np.ascontiguousarray(np.broadcast_to(x, shape)) for x in (from_, along))
         first, last = (np.ascontiguousarray(t) for t in ends)
         return RayHits(**self._core.intersect(from_, along, first, last, bool(all), operator.index(most_parts), threads))
@@ -391,7 +392,7 @@ class LimitSurface(Source):
 
         Raises
         ------
-        ValueError
+        InvalidParameter
             An array of another shape or type; NaN and infinite points.
         """
         shape = self._core.points.shape
@@ -437,7 +438,7 @@ class LimitSurface(Source):
         raise TypeError("a LimitSurface does not pickle: it is made of its mesh faster than it is read; pickle the Mesh")
 
 
-def closest(surface: Source, points: npt.ArrayLike, *, count: int = 1, radius: float = math.inf, signed: bool = False,
+def closest(surface: Source, points: npt.ArrayLike, *, nearest: int = 1, radius: float = math.inf, signed: bool = False,
             threads: int = 0) -> ClosestPoints:
     """Nearest points of a `LimitSurface` or of `Patches`: their method `closest`.
 
@@ -445,7 +446,7 @@ def closest(surface: Source, points: npt.ArrayLike, *, count: int = 1, radius: f
     ----------
     surface : a `LimitSurface` or `Patches`
     points : (n, 3)
-    count : nearest faces of each point, with the nearest place on each
+    nearest : number of nearest faces of each point, with the nearest place on each
     radius : what is farther is left out, a length
     signed : distances of points inside are below 0
 
@@ -453,10 +454,8 @@ def closest(surface: Source, points: npt.ArrayLike, *, count: int = 1, radius: f
     ------
     TypeError
         Another surface, such as a `Mesh`, which has one under a scheme.
-    ValueError
-        Points of another shape or type; NaN and infinite ones.
     InvalidParameter
-        A count below 1, a radius below 0.
+        Points of another shape or type, NaN and infinite ones; `nearest` below 1, a radius below 0.
     InvalidMesh
         No face that is not a hole.
     UnsupportedTopology
@@ -469,7 +468,7 @@ def closest(surface: Source, points: npt.ArrayLike, *, count: int = 1, radius: f
     >>> sublimit.closest(sublimit.LimitSurface(sheet, "bilinear"), [[0.25, 0.5, 2]]).distance
     array([2.])
     """
-    return surface_of(surface, Source).closest(points, count=count, radius=radius, signed=signed, threads=threads)
+    return surface_of(surface, Source).closest(points, nearest=nearest, radius=radius, signed=signed, threads=threads)
 
 
 def intersect(surface: Source, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: npt.ArrayLike = 0,
@@ -488,10 +487,9 @@ def intersect(surface: Source, origins: npt.ArrayLike, directions: npt.ArrayLike
     ------
     TypeError
         Another surface, such as a `Mesh`, which has one under a scheme.
-    ValueError
-        Rays of other shapes or types, or that do not fit together; NaN and infinite ones.
     InvalidParameter
-        A direction of 0, a ray that ends before it begins.
+        Rays of other shapes or types, or that do not fit together, NaN and infinite ones; a
+        direction of 0, a ray that ends before it begins.
     UnsupportedTopology
         Patches that are neither polynomials nor quotients of them, or have poles.
 
@@ -587,18 +585,18 @@ def _rates(rates: Any) -> tuple[arrays.Ints, arrays.Ints]:
 def order(derivatives: int) -> int:
     """As the compiled part takes it."""
     if derivatives not in (0, 1, 2):
-        raise ValueError(f"derivatives is {derivatives}; 0, 1 or 2 are right")
+        raise InvalidParameter(f"derivatives is {derivatives}; 0, 1 or 2 are right")
     return int(derivatives)
 
 
 def places_of(at: Any) -> tuple[arrays.Ints, arrays.Floats, arrays.Floats]:
     """Flat arrays of (face, u, v), or of (face, (u, v)), as tables have them."""
     if not isinstance(at, (tuple, list)) or len(at) not in (2, 3):
-        raise ValueError("at is not (face, u, v) or (face, (u, v)), as Table.addresses has it")
+        raise InvalidParameter("at is not (face, u, v) or (face, (u, v)), as Table.addresses has it")
     if len(at) == 2:
         both = np.asarray(at[1])
         if both.ndim < 1 or both.shape[-1] != 2:
-            raise ValueError(f"at has (u, v) of shape {both.shape}; (..., 2) is right")
+            raise InvalidParameter(f"at has (u, v) of shape {both.shape}; (..., 2) is right")
         return places(at[0], both[..., 0], both[..., 1])[:3]
     return places(*at)[:3]
 
@@ -612,7 +610,7 @@ def places(face: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike) -> tuple[arr
         wide = np.broadcast_arrays(*given)
     except ValueError:
         shapes = ", ".join(f"{name} {part.shape}" for name, part in zip(names, given))
-        raise ValueError(f"face, u and v do not broadcast to one shape: {shapes}") from None
+        raise InvalidParameter(f"face, u and v do not broadcast to one shape: {shapes}") from None
     flat = [part.reshape(-1) for part in wide]
     return (arrays.ints(flat[0], "face", (None,), "whole numbers"),
             arrays.floats(flat[1], "u", (None,), "real numbers", finite=False),

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
+from ._errors import InvalidOption, InvalidParameter
 from ._gpus import number_of
 from ._levels import core_of, csr, warn_of
 from ._meshes import Mesh
@@ -89,6 +90,23 @@ class Table:
         return self._core.faces()
 
     @property
+    def refined_points(self) -> npt.NDArray[np.int64] | None:
+        """(vertices of `refine`,): the point of each vertex, -1 for vertices without faces.
+
+        None unless the table was baked with ``order=True``; files do not store it.
+
+        Examples
+        --------
+        >>> import numpy, sublimit
+        >>> square = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+        >>> table = sublimit.bake(square, "catmull-clark", levels=2, precision="double", order=True)
+        >>> points = table.apply(square.points)[table.refined_points]
+        >>> numpy.allclose(points, sublimit.refine(square, "catmull-clark", 2).points)
+        True
+        """
+        return self._core.refined_points()
+
+    @property
     def addresses(self) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64]] | None:
         """Of grids and lists of places: ``(face, (u, v))`` of each point."""
         return self._core.addresses()
@@ -131,7 +149,7 @@ class Table:
 
         Raises
         ------
-        ValueError
+        InvalidParameter
             Arrays of another shape or type; numbers too large for the table's `dtype`; an `out` that shares memory with
             `points`.
         InvalidOption
@@ -143,7 +161,7 @@ class Table:
         given = self._input(self._homogeneous(points, weights), "points", self.num_control_points, "control points")
         frames = given.reshape((-1, *given.shape[-2:]))
         if not 1 <= given.shape[-1] <= 64:
-            raise ValueError(f"points has {given.shape[-1]} channels; 1 to 64 are right")
+            raise InvalidParameter(f"points has {given.shape[-1]} channels; 1 to 64 are right")
         shape = given.shape[:-2] + self._shape(given.shape[-1])
         if out is None:
             out = np.empty(shape, self.dtype)
@@ -160,17 +178,17 @@ class Table:
             points = arrays.of_others(points)
             shape = np.shape(points)
             if len(shape) in (2, 3) and shape[-1] != 4:
-                raise ValueError(f"points has {shape[-1]} columns, and the table is rational: 4, (w x, w y, w z, w), as "
-                                 "Patches.points has them, are right, or points with weights=")
+                raise InvalidParameter(f"points has {shape[-1]} columns, and the table is rational: 4, (w x, w y, w z, w), as "
+                                       "Patches.points has them, are right, or points with weights=")
             return points
         if not self.rational:
-            raise ValueError("weights are for rational tables; this one is not")
+            raise InvalidParameter("weights are for rational tables; this one is not")
         values, factors = np.asarray(arrays.of_others(points)), np.asarray(arrays.of_others(weights))
         if values.ndim not in (2, 3) or factors.shape not in (values.shape[:-1], values.shape[-2:-1]):
-            raise ValueError(f"weights has shape {factors.shape}; one for each of the points, which have shape "
-                             f"{values.shape}, is right")
+            raise InvalidParameter(f"weights has shape {factors.shape}; one for each of the points, which have shape "
+                                   f"{values.shape}, is right")
         if factors.dtype.kind not in "fiu" or values.dtype.kind not in "fiu":
-            raise ValueError(f"points have dtype {values.dtype} and weights {factors.dtype}; real numbers are right")
+            raise InvalidParameter(f"points have dtype {values.dtype} and weights {factors.dtype}; real numbers are right")
         factors = np.broadcast_to(factors.astype(np.float64), values.shape[:-1])[..., None]
         columns: npt.NDArray[np.float64] = np.concatenate([values * factors, factors], axis=-1)
         return columns
@@ -194,11 +212,11 @@ class Table:
         given = np.asarray(values)
         if self.quantities > 1 and given.ndim == 3:
             if given.shape[0] > self.quantities:
-                raise ValueError(f"values has shape {given.shape}; the table has {self.quantities} quantities")
+                raise InvalidParameter(f"values has shape {given.shape}; the table has {self.quantities} quantities")
             flat = self._input(given, "values", self.num_points, "points")
         else:
             if given.ndim != 2:
-                raise ValueError(f"values has shape {given.shape}; ({self.num_points} points, channels) is right")
+                raise InvalidParameter(f"values has shape {given.shape}; ({self.num_points} points, channels) is right")
             flat = self._input(given, "values", self.num_points, "points").reshape((1, *given.shape))
         shape = (self.num_control_points, flat.shape[-1])
         if out is None:
@@ -210,30 +228,30 @@ class Table:
     def _input(self, values: npt.ArrayLike, name: str, count: int, what: str) -> npt.NDArray[Any]:
         array = np.asarray(arrays.of_others(values))
         if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
-            raise ValueError(f"{name} has masked entries; fill them, or leave them out")
+            raise InvalidParameter(f"{name} has masked entries; fill them, or leave them out")
         if array.dtype.kind not in "fiu":
-            raise ValueError(f"{name} has dtype {array.dtype}; real numbers are right")
+            raise InvalidParameter(f"{name} has dtype {array.dtype}; real numbers are right")
         if array.ndim not in (2, 3) or array.shape[-2] != count or array.shape[-1] < 1:
-            raise ValueError(f"{name} has shape {array.shape}; ({count} {what}, channels) is right, or a first axis before it")
+            raise InvalidParameter(f"{name} has shape {array.shape}; ({count} {what}, channels) is right, or a first axis before it")
         with np.errstate(over="ignore"):  # told below, with its place
             taken = np.ascontiguousarray(array, dtype=self.dtype)
         if array.dtype.itemsize > taken.dtype.itemsize and not np.isfinite(taken).all():
             lost = np.argwhere(np.isfinite(array) & ~np.isfinite(taken))
             if len(lost):
                 place = tuple(int(i) for i in lost[0])
-                raise ValueError(f"{name}[{', '.join(map(str, place))}] is {array[place]}, too large for a table in float; "
-                                 "bake one with precision=\"double\"")
+                raise InvalidParameter(f"{name}[{', '.join(map(str, place))}] is {array[place]}, too large for a table in float; "
+                                       "bake one with precision=\"double\"")
         return taken
 
     def _check_out(self, out: npt.NDArray[Any], shape: tuple[int, ...], given: npt.NDArray[Any], name: str) -> None:
         if not isinstance(out, np.ndarray) or out.dtype != self.dtype:
-            raise ValueError(f"out is {getattr(out, 'dtype', type(out).__name__)}; an array of {self.dtype} is right")
+            raise InvalidParameter(f"out is {getattr(out, 'dtype', type(out).__name__)}; an array of {self.dtype} is right")
         if out.shape != shape:
-            raise ValueError(f"out has shape {out.shape}; {shape} is right")
+            raise InvalidParameter(f"out has shape {out.shape}; {shape} is right")
         if not out.flags.c_contiguous or not out.flags.writeable:
-            raise ValueError("out is read-only or its rows do not follow each other; np.empty(shape, dtype) is right")
+            raise InvalidParameter("out is read-only or its rows do not follow each other; np.empty(shape, dtype) is right")
         if np.may_share_memory(out, given) and np.shares_memory(out, given):  # the first is quick
-            raise ValueError(f"out shares memory with {name}, which is read while out is written")
+            raise InvalidParameter(f"out shares memory with {name}, which is read while out is written")
 
     def matrix(self) -> csr_array:
         """(quantities x points, control points): all positions first, then all du, ... Of a rational table it makes homogeneous
@@ -298,7 +316,7 @@ def _unpickled(data: bytes) -> Table:
 
 def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: bool = False, grid: int | None = None,
          at: tuple[npt.ArrayLike, ...] | None = None, tessellation: Tessellation | None = None,
-         derivatives: int = 0, precision: str = "float",
+         derivatives: int = 0, precision: str = "float", order: bool = False,
          boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
          option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
          strict: bool = False, threads: int = 0) -> Table:
@@ -314,27 +332,29 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
     tessellation : the points of `LimitSurface.tessellate` instead; `Table.faces` are its triangles
     derivatives : 0, 1 or 2, of the limit
     precision : of the weights, ``"float"`` or ``"double"``
+    order : with levels, keep which vertex of `refine` each point is: `Table.refined_points`
 
     Raises
     ------
-    ValueError
-        None of levels, grid, at and tessellation, or several of them; no places.
     InvalidParameter
-        Numbers outside their range, derivatives of levels, places on no face.
+        None of levels, grid, at and tessellation, or several of them; no places. Numbers
+        outside their range, derivatives of levels, places on no face.
     UnsupportedTopology, ResourceError
         As `refine`.
 
     Notes
     -----
-    Points of levels stand in an order of the table's own, which `Table.faces` knows; those of grids stand face by face,
-    u fastest; places as they are given.
+    Points of levels are in an order of the table, not in that of `refine`: `Table.faces` has the faces between them, and
+    `Table.refined_points` the point of each vertex of `refine` if `order` is set. Points of grids are ordered face by
+    face, u fastest; places keep their order.
     """
     choices = "levels, grid, at and tessellation"
     if tessellation is not None:
         if at is not None:
-            raise ValueError(f"a table is of one of {choices}")
+            raise InvalidParameter(f"a table is of one of {choices}")
         at = tessellation.face, tessellation.u, tessellation.v
     options = bake_options(levels, limit, grid, at, derivatives, precision, choices)
+    options.order = bool(order)
     if tessellation is not None:
         options.set_triangles(tessellation.triangles)
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
@@ -353,11 +373,11 @@ def bake_options(levels: int | None, limit: bool, grid: int | None, at: tuple[np
     choices : what a table may be of, for errors
     """
     if precision not in ("float", "double"):
-        raise ValueError(f"precision is {precision!r}; 'float' or 'double' are right")
+        raise InvalidOption(f"precision is {precision!r}; 'float' or 'double' are right")
     if sum(choice is not None for choice in (levels, grid, at)) != 1:
-        raise ValueError(f"a table is of one of {choices}")
+        raise InvalidParameter(f"a table is of one of {choices}")
     if limit and levels is None:
-        raise ValueError("limit is of a level; all others are of the limit anyway")
+        raise InvalidParameter("limit is of a level; all others are of the limit anyway")
     options = _sublimit.BakeOptions()
     options.levels = None if levels is None else operator.index(levels)
     options.limit = bool(limit)
@@ -367,7 +387,7 @@ def bake_options(levels: int | None, limit: bool, grid: int | None, at: tuple[np
     if at is not None:
         where = places_of(at)
         if len(where[0]) == 0:
-            raise ValueError("at has no places; a table has one or more")
+            raise InvalidParameter("at has no places; a table has one or more")
         options.set_places(where)
     return options
 

@@ -24,6 +24,7 @@ import numpy as np
 import numpy.typing as npt
 import torch
 
+from ._errors import InvalidParameter
 from ._surfaces import Source, surface_of
 from ._tables import Table
 
@@ -46,12 +47,12 @@ def apply(table: Table, points: torch.Tensor) -> torch.Tensor:
 
     Raises
     ------
-    ValueError
+    InvalidParameter
         A tensor that is not on the CPU, or of another shape; a rational table, whose points are quotients.
     """
     _check_on_cpu(points, "points")
     if table.rational:
-        raise ValueError("a rational table divides: it is no linear function of its homogeneous points")
+        raise InvalidParameter("a rational table divides: it is no linear function of its homogeneous points")
     batches = points.shape[:-2] if points.ndim > 3 else None
     result: torch.Tensor = _Apply.apply(points if batches is None else points.reshape(-1, *points.shape[-2:]), table)
     return result if batches is None else result.reshape(*batches, *result.shape[1:])
@@ -78,9 +79,8 @@ def evaluate(surface: Source, face: Any, u: torch.Tensor | float, v: torch.Tenso
     Raises
     ------
     InvalidParameter
-        A face that there is not, parameters outside of it or not finite.
-    ValueError
-        A tensor that is not on the CPU, or of another shape; points of patches that are rational.
+        A face that there is not, parameters outside of it or not finite. A tensor that is not on the
+        CPU, or of another shape; points of patches that are rational.
 
     Notes
     -----
@@ -95,7 +95,7 @@ def evaluate(surface: Source, face: Any, u: torch.Tensor | float, v: torch.Tenso
         faces, at_u, at_v = torch.broadcast_tensors(faces, *at)
     except RuntimeError:
         shapes = ", ".join(f"{name} {tuple(part.shape)}" for name, part in zip(("face", "u", "v"), (faces, *at)))
-        raise ValueError(f"face, u and v do not broadcast to one shape: {shapes}") from None
+        raise InvalidParameter(f"face, u and v do not broadcast to one shape: {shapes}") from None
     numbers = faces.detach().reshape(-1).numpy()
     if points is None:
         dtype = torch.promote_types(at_u.dtype, at_v.dtype)
@@ -104,9 +104,9 @@ def evaluate(surface: Source, face: Any, u: torch.Tensor | float, v: torch.Tenso
         return result
     _check_on_cpu(points, "points")
     if getattr(surface, "weights", None) is not None:
-        raise ValueError("points of rational patches are quotients: they are no linear function of homogeneous points")
+        raise InvalidParameter("points of rational patches are quotients: they are no linear function of homogeneous points")
     if points.ndim < 2 or points.shape[-2] != surface.num_points:
-        raise ValueError(f"points has shape {tuple(points.shape)}; (..., {surface.num_points} control points, channels) is right")
+        raise InvalidParameter(f"points has shape {tuple(points.shape)}; (..., {surface.num_points} control points, channels) is right")
     frames = points.reshape(-1, *points.shape[-2:])
     made = _Evaluate.apply(at_u.reshape(-1), at_v.reshape(-1), frames, surface, numbers, 0, points.dtype)
     result = made.reshape(*points.shape[:-2], *faces.shape, points.shape[-1])
@@ -115,7 +115,7 @@ def evaluate(surface: Source, face: Any, u: torch.Tensor | float, v: torch.Tenso
 
 def _check_on_cpu(tensor: torch.Tensor, name: str) -> None:
     if tensor.device.type != "cpu":
-        raise ValueError(f"{name} is on {tensor.device}; {name}.cpu() is right")
+        raise InvalidParameter(f"{name} is on {tensor.device}; {name}.cpu() is right")
 
 
 def _real(value: Any, name: str) -> torch.Tensor:

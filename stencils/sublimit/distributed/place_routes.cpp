@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/stencils/files/sample_files.h"
 
 namespace sublimit {

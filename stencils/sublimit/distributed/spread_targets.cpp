@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 namespace {

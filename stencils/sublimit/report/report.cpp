@@ -10,7 +10,7 @@
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
-#include "sublimit/scheme/check_scheme.h"
+#include "sublimit/scheme/detail/check_scheme.h"
 #include "sublimit/schemes/schemes.h"
 
 namespace sublimit {

@@ -8,6 +8,7 @@
 //   analyze(mine<double>(), mine<Algebraic>()).save_html("mine.html");  // <sublimit/certificates/algebraic.h>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sublimit/mesh/mesh.h"
@@ -22,7 +23,8 @@ class Report {
  public:
   /// Makes a report of its text.
   explicit Report(std::string json) : json_(std::move(json)) {}
-  const std::string& json() const { return json_; }  ///< text of the report, JSON
+  const std::string& json() const& { return json_; }  ///< text of the report, JSON
+  std::string json() && { return std::move(json_); }  ///< a copy, from temporaries
 
   /// Writes the text; the file appears whole or not at all.
   /// @throws IoError  unwritable;  ResourceError  a full disk

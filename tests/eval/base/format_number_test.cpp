@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 
 #include <gtest/gtest.h>
 

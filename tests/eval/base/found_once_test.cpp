@@ -51,9 +51,9 @@ int sum_by_loop() {
   return std::accumulate(of_block.begin(), of_block.end(), 0);
 }
 
-TEST(FoundOnce, IsFoundByOneThreadAndTheSameForAll) {
+TEST(ComputedOnce, IsFoundByOneThreadAndTheSameForAll) {
   for (int round = 0; round < 10; ++round) {
-    const FoundOnce<std::string> once;
+    const ComputedOnce<std::string> once;
     std::atomic<int> calls = 0;
     std::vector<const std::string*> seen(num_threads);
     EXPECT_EQ(once.known(), nullptr);
@@ -71,11 +71,11 @@ TEST(FoundOnce, IsFoundByOneThreadAndTheSameForAll) {
 
 /// A thread that waits for the loop inside of find() must not take up a block of the outer loop, which asks for the
 /// same value: it would wait for itself.
-TEST(FoundOnce, FindsInsideOfLoopsByLoops) {
+TEST(ComputedOnce, FindsInsideOfLoopsByLoops) {
   for (const size_t threads : {1, 2, 8}) {
     const Limit limit(Limit::max_allowed_parallelism, threads);
     for (int round = 0; round < 5; ++round) {
-      std::vector<FoundOnce<int>> values(3);
+      std::vector<ComputedOnce<int>> values(3);
       std::atomic<int> wrong = 0;
       parallel_for_blocks(
           64,
@@ -89,11 +89,11 @@ TEST(FoundOnce, FindsInsideOfLoopsByLoops) {
 }
 
 /// Threads that share an arena take up each other's blocks, also one that finds outside of any loop.
-TEST(FoundOnce, FindsWhereThreadsShareAnArena) {
+TEST(ComputedOnce, FindsWhereThreadsShareAnArena) {
   const Limit limit(Limit::max_allowed_parallelism, num_threads);
   tbb::task_arena arena{int{num_threads}, 2};
   for (int round = 0; round < 10; ++round) {
-    const FoundOnce<int> value;
+    const ComputedOnce<int> value;
     // One finds, outside of any loop; the other one's blocks, and those that come to help, wait for it.
     by_threads(2, [&](size_t k) {
       arena.execute([&] {
@@ -108,9 +108,9 @@ TEST(FoundOnce, FindsWhereThreadsShareAnArena) {
   }
 }
 
-TEST(FoundOnce, ValuesMayNeedOthers) {
+TEST(ComputedOnce, ValuesMayNeedOthers) {
   for (int round = 0; round < 5; ++round) {
-    std::vector<FoundOnce<int>> chain(10);
+    std::vector<ComputedOnce<int>> chain(10);
     const auto value = [&](const auto& self, size_t i) -> int {
       return chain[i].get([&] { return sum_by_loop() + (i > 0 ? self(self, i - 1) : 0); });
     };
@@ -127,8 +127,8 @@ TEST(FoundOnce, ValuesMayNeedOthers) {
   }
 }
 
-TEST(FoundOnce, KeepsThatThereIsNone) {
-  const FoundOnce<int> once;
+TEST(ComputedOnce, KeepsThatThereIsNone) {
+  const ComputedOnce<int> once;
   std::atomic<int> calls = 0, told = 0;
   by_threads(num_threads, [&](size_t) {
     try {
@@ -146,9 +146,9 @@ TEST(FoundOnce, KeepsThatThereIsNone) {
 }
 
 /// Where there was no memory there may be some now; and who waited finds it.
-TEST(FoundOnce, TriesAgainAfterAnyOtherError) {
+TEST(ComputedOnce, TriesAgainAfterAnyOtherError) {
   for (int round = 0; round < 10; ++round) {
-    const FoundOnce<int> once;
+    const ComputedOnce<int> once;
     std::atomic<int> calls = 0, failed = 0, found = 0;
     by_threads(num_threads, [&](size_t) {
       try {

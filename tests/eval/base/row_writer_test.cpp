@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "support/expect_error.h"
 #include "support/random_doubles.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curve schemes of one's own are checked before anything is computed with them.
-#include "sublimit/curves/check_curve_scheme.h"
+#include "sublimit/curves/detail/check_curve_scheme.h"
 
 #include <gtest/gtest.h>
 

@@ -60,7 +60,7 @@ TEST(CloudFit, FindsTheSurfaceThatItsPointsAreFrom) {
 
 TEST(CloudFit, GoesDownhillPointToPoint) {
   const Known k = known("catmull-clark", 0.15);
-  const CloudFit fit = fit_cloud(k.surface, k.cloud, k.guess, {.tangential = 1, .max_iterations = 12});
+  const CloudFit fit = fit_cloud(k.surface, k.cloud, k.guess, {.tangential = 1, .iterations = 12});
   ASSERT_EQ(fit.iterations.size(), 13u);
   EXPECT_FALSE(fit.converged);
   for (size_t i = 1; i < fit.iterations.size(); ++i) EXPECT_LT(fit.iterations[i].rms, fit.iterations[i - 1].rms);
@@ -70,7 +70,7 @@ TEST(CloudFit, GoesDownhillPointToPoint) {
 TEST(CloudFit, GoesDownhillFromFarOffToo) {
   // Tangent planes alone would overshoot.
   const Known k = known("catmull-clark", 0.7);
-  const CloudFit fit = fit_cloud(k.surface, k.cloud, k.guess, {.tangential = 1e-6, .max_iterations = 6});
+  const CloudFit fit = fit_cloud(k.surface, k.cloud, k.guess, {.tangential = 1e-6, .iterations = 6});
   expect_downhill(fit);
   EXPECT_GT(fit.iterations.size(), 2u);
 }
@@ -86,7 +86,7 @@ TEST(CloudFit, StretchesToTheBorderOfTheCloud) {
     places.push_back({11, s, 1});
   }
   const CloudFit fit =
-      fit_cloud(surface, {surface.evaluate(truth, places).position}, mesh.positions, {.max_iterations = 8});
+      fit_cloud(surface, {surface.evaluate(truth, places).position}, mesh.positions, {.iterations = 8});
   expect_downhill(fit);
   EXPECT_LE(fit.iterations.back().rms, fit.iterations.front().rms / 50);
 }
@@ -95,7 +95,7 @@ TEST(CloudFit, FairnessAndItsScheduleAndPinsHold) {
   Known k = known("catmull-clark", 0.1, 0.02);
   k.cloud.weights.assign(600, 2.0);
   k.cloud.weights[3] = 0;
-  CloudFitOptions options{.fairness = {.thin_plate = 1e-4}, .schedule = {10, 5, 1}, .max_iterations = 20};
+  CloudFitOptions options{.fairness = {.thin_plate = 1e-4}, .schedule = {10, 5, 1}, .iterations = 20};
   options.pins.vertices = {4};
   options.pins.values = k.truth.row(4);
   const CloudFit fit = fit_cloud(k.surface, k.cloud, k.guess, options);

@@ -13,7 +13,7 @@
 #include <tuple>
 #include <vector>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/io/detail/free_form_counts.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/polygon_files.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

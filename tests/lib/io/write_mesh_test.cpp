@@ -16,7 +16,7 @@
 #include <random>
 #include <string>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/ply.h"

@@ -175,6 +175,11 @@ TEST(LimitRows, NameTheFirstVertexThatHasNoLimit) {
     LimitCache cache(scheme);
     expect_error<NoLimit>([&] { limit_matrices(levels[0], cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
     expect_error<NoLimit>([&] { limit_matrices(levels, cache); }, {"no limit at vertex 8:", "eigenvalue 1"});
+    try {
+      limit_matrices(levels, cache);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::unsupported_topology);  // at each door: the scheme has no limit of this mesh
+    }
     expect_error<NoLimit>([&] { limit_matrices(levels[1], cache); }, {"no limit at vertex 8 of level 1:"});
     const LimitMap surface(scheme, mesh);
     expect_error<NoLimit>(

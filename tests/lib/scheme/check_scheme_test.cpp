@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Schemes of one's own are checked before anything is computed with them: a mistake is an error that names scheme, step
 // and mask.
-#include "sublimit/scheme/check_scheme.h"
+#include "sublimit/scheme/detail/check_scheme.h"
 
 #include <gtest/gtest.h>
 

@@ -190,7 +190,7 @@ TEST(ClosestPoints, NearestFacesAreInTurn) {
     const LimitMap surface(scheme, mesh);
     const double size = diagonal(mesh.positions);
     const Points q = queries(surface.evaluate_grid(mesh.positions, 5), size, 20, 3);
-    const ClosestPoints found = closest(surface, mesh.positions, q, {.count = 100});
+    const ClosestPoints found = closest(surface, mesh.positions, q, {.nearest = 100});
     for (Index i = 0; i < 20; ++i) {
       const std::vector<double> expected = distances_by_face(scheme, mesh, q.row(i));
       const std::int64_t first = found.first[size_t(i)];
@@ -204,10 +204,10 @@ TEST(ClosestPoints, NearestFacesAreInTurn) {
         }
       }
       // Three of them, and those within a radius.
-      const ClosestPoints three = closest(surface, mesh.positions, q.row(i), {.count = 3});
+      const ClosestPoints three = closest(surface, mesh.positions, q.row(i), {.nearest = 3});
       ASSERT_EQ(three.first, (std::vector<std::int64_t>{0, 3}));
       const double radius = (expected[2] + expected[3]) / 2;
-      const ClosestPoints within = closest(surface, mesh.positions, q.row(i), {.count = 100, .radius = radius});
+      const ClosestPoints within = closest(surface, mesh.positions, q.row(i), {.nearest = 100, .radius = radius});
       EXPECT_EQ(within.first[1], std::ranges::count_if(expected, [&](double d) { return d <= radius; })) << i;
     }
   }
@@ -217,7 +217,7 @@ TEST(ClosestPoints, AllFacesAreFoundWhereAllAreAskedFor) {
   const Mesh mesh = torus(12, 9);
   const LimitMap surface(*find_scheme<double>("catmull-clark"), mesh);
   const Points q = Eigen::RowVector3d(0.3, -2, 0.4);
-  const ClosestPoints found = closest(surface, mesh.positions, q, {.prove = false, .count = 1000});
+  const ClosestPoints found = closest(surface, mesh.positions, q, {.prove = false, .nearest = 1000});
   EXPECT_EQ(std::ssize(found.places), surface.faces().size);
   EXPECT_TRUE(std::is_sorted(found.distances.begin(), found.distances.end()));
 }
@@ -314,8 +314,10 @@ TEST(ClosestPoints, SayWhatIsWrong) {
                                  {"face 0", "no face"});
   expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(2, 3), {.guess = guess}); },
                                  {"1 places", "2 points"});
-  expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(1, 3), {.count = 0}); },
+  expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(1, 3), {.nearest = 0}); },
                                  {"0 nearest"});
+  expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(1, 3), {.most_cells = 0}); },
+                                 {"0 cells"});
   expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, Points::Zero(1, 3), {.radius = -1}); },
                                  {"radius"});
   mesh.holes = {0, 1, 2, 3, 4, 5};

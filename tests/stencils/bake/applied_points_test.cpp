@@ -6,7 +6,7 @@
 #include <tbb/global_control.h>
 
 #include "sublimit/stencils/bake/detail/bake.h"
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/limit/limit_map.h"
 #include "sublimit/eval/detail/point_addresses.h"

@@ -11,7 +11,7 @@
 #include "stencils/cli_program.h"
 #include "stencils/drawn_panels.h"
 #include "stencils/markup.h"
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/schemes/schemes.h"

@@ -10,7 +10,7 @@
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
 #include "stencils/markup.h"
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "support/free_form_shapes.h"
 #include "support/tolerance.h"
 

@@ -8,7 +8,7 @@
 
 #include "stencils/cli_program.h"
 #include "stencils/recipes/recipe_samples.h"
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 
 namespace sublimit::testing {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/stencils/files/npy.h"
 #include "sublimit/io/read_mesh.h"
 #include "support/free_form_shapes.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stencils/cli_tables.h"
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/stencils/files/npy.h"
 #include "support/free_form_shapes.h"
 #include "support/tolerance.h"

@@ -13,7 +13,7 @@
 
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/stencils/files/random_samples.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/limit/curvature.h"

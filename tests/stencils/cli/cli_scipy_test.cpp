@@ -7,7 +7,7 @@
 
 #include "stencils/cli/python_with_scipy.h"
 #include "stencils/cli_program.h"
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "support/free_form_shapes.h"
 
 namespace sublimit::testing {

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/stencils/files/random_samples.h"
 #include "sublimit/schemes/schemes.h"

@@ -27,11 +27,11 @@ namespace sublimit {
 /// exceptions are temporary (no memory, an interruption, an error of the caller's code): they are thrown in the thread
 /// that computed, and the next call, or one that waits, tries again.
 template <class T>
-class FoundOnce {
+class ComputedOnce {
  public:
-  FoundOnce() = default;
-  FoundOnce(const FoundOnce&) = delete;
-  FoundOnce& operator=(const FoundOnce&) = delete;
+  ComputedOnce() = default;
+  ComputedOnce(const ComputedOnce&) = delete;
+  ComputedOnce& operator=(const ComputedOnce&) = delete;
 
   /// Returns the value, computed by find() at the first call. Other threads wait for it.
   /// @param find  returns a T; must not need this value, directly or indirectly
@@ -94,7 +94,7 @@ class FoundByKey {
   FoundByKey(FoundByKey&&) = default;  ///< while nobody else has it
   FoundByKey& operator=(FoundByKey&&) = default;
 
-  /// Returns the value of a key, computed by find() at the first call, as `FoundOnce::get`. The reference is valid
+  /// Returns the value of a key, computed by find() at the first call, as `ComputedOnce::get`. The reference is valid
   /// while this exists.
   template <class Find>
   const T& get(const Key& key, const Find& find) const {
@@ -126,8 +126,8 @@ class FoundByKey {
   }
 
  private:
-  using Entries = std::conditional_t<std::is_void_v<Hash>, tbb::concurrent_map<Key, FoundOnce<T>>,
-                                     tbb::concurrent_unordered_map<Key, FoundOnce<T>, Hash>>;
+  using Entries = std::conditional_t<std::is_void_v<Hash>, tbb::concurrent_map<Key, ComputedOnce<T>>,
+                                     tbb::concurrent_unordered_map<Key, ComputedOnce<T>, Hash>>;
   mutable Entries entries_;
 };
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <new>
 
+#include "sublimit/base/detail/huge_pages.h"
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/base/huge_pages.h"
 
 namespace sublimit {
 namespace {

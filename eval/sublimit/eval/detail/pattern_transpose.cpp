@@ -49,7 +49,7 @@ struct PatternTranspose<Real>::Lists {
 
 template <class Real>
 PatternTranspose<Real>::PatternTranspose(const PatternTable<Real>& table)
-    : table_(table), lists_(std::make_unique<FoundOnce<Lists>>()) {}
+    : table_(table), lists_(std::make_unique<ComputedOnce<Lists>>()) {}
 template <class Real>
 PatternTranspose<Real>::~PatternTranspose() = default;
 template <class Real>

@@ -29,7 +29,7 @@ class PatternTranspose {
  private:
   struct Lists;
   const PatternTable<Real>& table_;
-  std::unique_ptr<FoundOnce<Lists>> lists_;
+  std::unique_ptr<ComputedOnce<Lists>> lists_;
 };
 
 extern template class PatternTranspose<float>;

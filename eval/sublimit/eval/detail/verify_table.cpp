@@ -9,9 +9,9 @@
 #include <utility>
 #include <variant>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/mapped_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/eval/detail/safetensors.h"
 #include "sublimit/eval/detail/table_tensors.h"
 #include "sublimit/eval/table_file.h"

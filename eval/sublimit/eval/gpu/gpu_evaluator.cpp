@@ -91,7 +91,7 @@ struct GpuEvaluator::Uploaded {
     std::int64_t num_parts = 0;
     std::unique_ptr<gpu::Memory> memory;
   };
-  FoundOnce<Transpose> made_transpose;
+  ComputedOnce<Transpose> made_transpose;
 
   gpu::MemoryPool pool;  // of `apply`
 

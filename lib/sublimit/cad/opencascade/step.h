@@ -13,13 +13,16 @@
 
 namespace sublimit {
 
-/// How `step` approximates and names faces.
+/// How two faces of a file meet: at the same points (g0), or with the same tangent planes too (g1).
+enum class StepJoin { g0, g1 };
+
+/// How `step` approximates and names faces. For patches only `tolerance` matters.
 struct StepOptions {
   /// Largest distance, a length > 0. For limit surfaces: of the caps around extraordinary vertices from the limit;
   /// 1e-5 of the diagonal of the control points if absent. For patches: between sides that become one edge; 1e-9 of
   /// the diagonal if absent.
   std::optional<double> tolerance = {};
-  bool join_smoothly = false;       ///< caps meet their neighbours with a common tangent plane (quadrilateral schemes)
+  StepJoin join = StepJoin::g0;     ///< how caps meet their neighbours; g1 under schemes of quadrilaterals alone
   bool pack = true;                 ///< regular faces as the largest B-splines that keep knots and smoothness
   Mesh::FaceNames face_names = {};  ///< STEP names of the mesh's faces; faces of different names are not packed
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Roots of polynomials over cyclotomic fields: eigenvalues. A root is its polynomial and an enclosure that holds no
-// other root of it. Inequalities are decided by enclosures at growing precision, equalities by common factors, exactly:
-// so both always come to an end.
+// Roots of polynomials over cyclotomic fields, such as eigenvalues. A root is stored as a polynomial with an
+// enclosure that contains no other root of it. Inequalities are decided by enclosures at growing precision,
+// equalities exactly by common factors; both terminate.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -11,18 +11,19 @@
 
 namespace sublimit {
 
+/// A root of a polynomial.
 class AlgebraicRoot {
  public:
   AlgebraicRoot() : AlgebraicRoot(Algebraic(0)) {}
-  /// An element of the field.
+  /// Makes the root that is an element of the field.
   explicit AlgebraicRoot(Algebraic value);
-  /// All roots of a squarefree polynomial. Rational ones, and those of linear factors, are elements of the field.
+  /// Returns all roots of a squarefree polynomial. Rational roots, and those of linear factors, have `exact()`.
   static std::vector<AlgebraicRoot> all(const Polynomial& squarefree);
   /// Makes the root that is the only one in an enclosure.
-  /// @throws AnalysisError  there is none, or it takes more digits to tell
+  /// @throws AnalysisError  there is none, or the working precision does not suffice to tell
   static AlgebraicRoot nearest(const Polynomial& squarefree, const ComplexBall& enclosure);
 
-  /// Squarefree and monic; not always the minimal one.
+  /// Returns a squarefree monic polynomial with this root, not always the minimal one.
   const Polynomial& polynomial() const { return *polynomial_; }
   /// Returns the value, if the root is known to lie in the field.
   const std::optional<Algebraic>& exact() const { return exact_; }
@@ -33,7 +34,7 @@ class AlgebraicRoot {
   Ball real_enclosure(long bits = 128) const { return enclosure(bits).re(); }
   bool is_real() const;
 
-  /// A factor of the polynomial, or one that has it as a factor, vanishes here.
+  /// True if p vanishes at this root; decided exactly.
   bool is_root_of(const Polynomial& p) const;
 
   AlgebraicRoot conj() const;
@@ -41,7 +42,7 @@ class AlgebraicRoot {
   AlgebraicRoot squared() const;
   friend AlgebraicRoot operator*(const AlgebraicRoot& a, const AlgebraicRoot& b);
 
-  /// "1/4", "21/64+sqrt(185/4096)", or the decimals and the polynomial.
+  /// Returns a text: "1/4", "21/64+sqrt(185/4096)", or decimals with the polynomial.
   std::string text() const;
 
  private:

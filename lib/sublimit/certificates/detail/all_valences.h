@@ -26,21 +26,24 @@ namespace sublimit {
 struct ValenceInterval {
   Ball h;
   Ball lambda;            ///< encloses the leading eigenvalue of block 1 for every h of the interval
-  Ball slope;             ///< and dlambda/dh
-  std::vector<Ball> net;  ///< unknowns of `real_block` for sector 0, the greatest scaled to 1
-  Ball least;             ///< below the Jacobian determinant divided by sin(pi/n)
+  Ball slope;             ///< encloses dlambda/dh
+  std::vector<Ball> net;  ///< encloses the unknowns of `real_block` for sector 0, the greatest scaled to 1
+  Ball least;             ///< lower bound of the Jacobian determinant divided by sin(pi/n)
 };
 
+/// Verdict and evidence for all valences.
 struct AllValences {
   Verdict verdict;
-  int first = 0;                           ///< the least valence that is not certified by itself
+  int first = 0;                           ///< the least valence that is not certified individually
   std::vector<ValenceInterval> intervals;  ///< by increasing h
 };
 
-/// The verdict rests on one thing that no experiment shows: masks are code, and are only looked at up to some valence.
-/// So the verdict speaks of masks that go on in the same way, and says so.
-/// @param first  valences below are certified one by one; 7 or more
-/// @throws InvalidParameter  first is less
+/// Returns the verdict on all valences n >= 3.
+///
+/// It rests on an assumption that cannot be tested: masks are code, which is only evaluated up to some valence.
+/// The verdict is about masks that continue in the same way for larger valences, and says so.
+/// @param first  valences below this are certified one by one; at least 7
+/// @throws InvalidParameter  `first` below 7
 AllValences all_valences(const C1Prover& prover, int first = 7);
 
 }  // namespace sublimit

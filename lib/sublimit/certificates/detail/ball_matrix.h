@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Matrices of balls, by Arb: at the thread's precision (PrecisionScope), as balls are.
+// Matrices of balls (Arb), with operations at the thread's precision (PrecisionScope).
 #include <arb_mat.h>
 
 #include <optional>
@@ -9,10 +9,11 @@
 
 namespace sublimit {
 
+/// A matrix of balls.
 class BallMatrix {
  public:
   BallMatrix(Eigen::Index rows, Eigen::Index columns) { arb_mat_init(m_, rows, columns); }
-  /// Makes balls of numbers that have an `enclosure()`, or that a ball can be made of, entry by entry.
+  /// Converts a matrix of numbers that have an `enclosure()`, or that convert to a ball.
   template <class Matrix>
   explicit BallMatrix(const Eigen::MatrixBase<Matrix>& entries) : BallMatrix(entries.rows(), entries.cols()) {
     for (Eigen::Index i = 0; i < rows(); ++i)
@@ -38,10 +39,10 @@ class BallMatrix {
   const arb_mat_struct* get() const { return m_; }
   arb_mat_struct* get() { return m_; }
 
-  /// Midpoints, rounded to doubles: for searches, never for proofs.
+  /// Returns the midpoints rounded to doubles: for searches, not for proofs.
   Eigen::MatrixXd middle() const;
   BallMatrix transposed() const;
-  /// Returns nothing if the matrix is not certainly regular.
+  /// Returns an enclosure of the inverses; nothing unless the matrix is certainly regular.
   std::optional<BallMatrix> inverse() const;
   Ball trace() const;
   friend BallMatrix operator*(const BallMatrix& a, const BallMatrix& b);

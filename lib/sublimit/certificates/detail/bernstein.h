@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Polynomials over a square or a triangle by their Bernstein coefficients, in any number type: exact ones prove
-// identities, balls prove signs, since a polynomial lies between the least and the greatest of its coefficients.
+// Polynomials over a square or a triangle by their Bernstein coefficients, in any number type. Exact numbers
+// prove identities. Balls prove signs, since a polynomial lies between its least and its greatest coefficient.
 #include <array>
 #include <vector>
 
@@ -10,6 +10,7 @@
 
 namespace sublimit {
 
+/// Domain of a polynomial.
 enum class PieceShape {
   square,    ///< 0 <= u, v <= 1; degrees in u and in v
   triangle,  ///< 0 <= u, v, u + v <= 1; one total degree
@@ -21,6 +22,7 @@ struct PiecePlace {
   T u, v;
 };
 
+/// A polynomial in Bernstein form.
 template <class T>
 class Bernstein {
  public:
@@ -44,12 +46,13 @@ class Bernstein {
   T& operator()(int i, int j) { return c_[index(i, j)]; }
   const T& operator()(int i, int j) const { return c_[index(i, j)]; }
 
-  /// Derivative by u (v). Of a constant direction: a zero polynomial of degree 0.
+  /// Returns the derivative by u (v); zero of degree 0 if the polynomial has degree 0 in this direction.
   Bernstein du() const { return derivative(1, 0); }
   Bernstein dv() const { return derivative(0, 1); }
 
   /// Returns the polynomial over a smaller piece: the square [p0.u, p1.u] x [p0.v, p2.v], or the triangle p0 (u = v =
-  /// 0), p1 (u = 1), p2 (v = 1). By blossoms: coefficients are values of the polar form at corners.
+  /// 0), p1 (u = 1), p2 (v = 1). Coefficients are
+  /// computed as values of the blossom at the corners.
   Bernstein restricted(const PiecePlace<T>& p0, const PiecePlace<T>& p1, const PiecePlace<T>& p2) const;
   T at(const PiecePlace<T>& p) const;
 
@@ -71,7 +74,7 @@ class Bernstein {
 
 namespace bernstein_detail {
 
-/// B_ij = weight * u^i v^j * (rest).
+/// Returns the factor of B_ij: B_ij = weight * u^i v^j * (powers of the other coordinates).
 template <class T>
 T weight(const Bernstein<T>& f, int i, int j) {
   return f.shape() == PieceShape::square
@@ -86,7 +89,7 @@ void step(T* b, int n, int stride, const T& t) {
   for (int k = 0; k + 1 < n; ++k) b[k * stride] = s * b[k * stride] + t * b[(k + 1) * stride];
 }
 
-/// Bernstein coefficients over [a, b] of the polynomial that c has over [0, 1], n values spaced `stride` apart.
+/// Replaces n Bernstein coefficients over [0, 1], spaced `stride` apart, by those over [a, b].
 template <class T>
 void restrict_line(T* c, int n, int stride, const T& a, const T& b) {
   std::vector<T> result;

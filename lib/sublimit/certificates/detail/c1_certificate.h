@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// C^1 at an extraordinary point by Reif's criterion, proved: order of the spectrum, and the characteristic map.
+// Proofs of C^1 at an extraordinary point by Reif's criterion: order of the spectrum, and the characteristic
+// map.
 #include <optional>
 #include <string>
 
@@ -12,25 +13,26 @@ namespace sublimit {
 /// Verdict and evidence of one neighbourhood.
 struct [[nodiscard]] C1Certificate {
   Verdict verdict;
-  std::optional<CharacteristicMap> map;  ///< of schemes whose block 1 has an isolated leading eigenvalue
-  std::optional<MapProof> proof;         ///< of polynomial schemes, and of others whose second differences are schemes
+  std::optional<CharacteristicMap> map;  ///< if block 1 has an isolated leading eigenvalue
+  std::optional<MapProof> proof;         ///< for piecewise polynomial schemes, and others with a DerivativeTail
   LocalPatch<Algebraic> patch;
 };
 
-/// Certificates of one scheme: what does not depend on the valence is found once.
+/// Prover for one scheme. Computes once what does not depend on the valence.
 class C1Prover {
  public:
-  /// @param scheme  with exact masks; `find_scheme<Algebraic>`, or your own
-  /// @throws AnalysisError  its rules on regular meshes are not one mask
+  /// @param scheme  scheme with exact masks, from `find_scheme<Algebraic>` or user-defined
+  /// @throws AnalysisError  rules on regular meshes do not agree on one mask
   explicit C1Prover(Scheme<Algebraic> scheme);
 
+  /// Returns the certificate of a neighbourhood.
   /// @param n  valence of the vertex, or corners of the face (dual schemes); >= 3
   C1Certificate certify(int n) const;
-  /// The closed neighbourhood that `certify` looks at.
+  /// Returns the closed neighbourhood that `certify` analyses.
   LocalPatch<Algebraic> patch(int n) const;
 
   const RegularMask<Algebraic>& mask() const { return mask_; }
-  /// Nothing for schemes whose limits are not polynomials.
+  /// Returns the polynomials of the regular limit; nothing if it is not piecewise polynomial.
   const std::optional<RegularPieces>& pieces() const { return pieces_; }
   const BallFunctions& functions() const { return functions_; }
   /// Returns the bound on derivatives of a scheme without polynomials, if there is one.

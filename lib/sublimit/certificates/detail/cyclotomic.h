@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Cyclotomic polynomials, made once each.
+// Cyclotomic polynomials, each computed once.
 #include <flint/fmpz_poly.h>
 
 namespace sublimit {
 
-/// The N-th cyclotomic polynomial, N > 0. It lives as long as the program; any thread may ask.
+/// Returns the cyclotomic polynomial of an order > 0. It is valid until the program ends. Thread-safe.
 const fmpz_poly_struct* cyclotomic_polynomial(long order);
 
-/// p modulo the N-th cyclotomic polynomial, p with integer coefficients.
+/// Reduces p, with integer coefficients, modulo the cyclotomic polynomial of an order, in place.
 void reduce_cyclotomic(fmpz_poly_t p, long order);
 
 }  // namespace sublimit

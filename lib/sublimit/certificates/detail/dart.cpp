@@ -12,8 +12,6 @@ namespace {
 using By = Hypothesis::By;
 using Answer = Verdict::Answer;
 
-Index face_size(const Scheme<Algebraic>& scheme) { return scheme.face_size() == 3 ? 3 : 4; }
-
 /// Eigenvalues of one block, by modulus, but for the eigenvalue 1 of block 0.
 std::vector<ExactEigenvalue> modes_of(const ExactSpectrum& spectrum, int block) {
   std::vector<ExactEigenvalue> modes;
@@ -57,24 +55,11 @@ bool adds_smaller(const ExactAnalysis& analysis, const AlgebraicRoot& value) {
 
 }  // namespace
 
-std::optional<LocalPatch<Algebraic>> crease_patch(const Scheme<Algebraic>& scheme, int faces, int rings) {
-  if (scheme.sharpening == Sharpening::boundary) return std::nullopt;
-  // Three faces on the other side, so that no valence is too small.
-  const Mesh mesh = creased_fan(faces + 3, faces, face_size(scheme));
-  return local_patch(scheme, {.faces = faces, .open = true}, rings, &mesh);
-}
-
 bool is_same_matrix(const LocalPatch<Algebraic>& a, const LocalPatch<Algebraic>& b) {
   if (a.labels != b.labels || a.A.rows() != b.A.rows()) return false;
   for (Eigen::Index i = 0; i < a.A.size(); ++i)
     if (!(a.A.data()[i] == b.A.data()[i])) return false;
   return true;
-}
-
-std::optional<LocalPatch<Algebraic>> dart_patch(const Scheme<Algebraic>& scheme, int n, int rings) {
-  if (scheme.sharpening != Sharpening::semi_sharp || scheme.is_dual()) return std::nullopt;
-  const Mesh mesh = creased_fan(n, n, face_size(scheme));
-  return local_patch(scheme, {.faces = n, .open = true}, rings, &mesh);
 }
 
 ExactAnalysis open_analysis(const Scheme<Algebraic>& scheme, LocalPatch<Algebraic> patch) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How far the derivatives of a limit can be from the differences of its control points, for schemes that are not
-// polynomials. Second differences d follow a scheme of their own,
+// Bounds of the difference between derivatives of a limit and differences of its control points, for schemes
+// without polynomials. Second differences d follow a scheme of their own,
 //
 //   d'(P) = sum over Q of b(P - D Q) d(Q),     mask(z) = sum over 0 <= i, j < D of b(z + i e + j f),
 //
@@ -17,14 +17,16 @@
 
 namespace sublimit {
 
-/// A second difference at a point: of family `family` there.
+/// A second difference of a family at a point.
 struct SecondDifference {
   size_t family;
   LatticePoint at;
   auto operator<=>(const SecondDifference&) const = default;
 };
 
+/// The bound of a scheme.
 struct DerivativeTail {
+  /// Second differences along e and f, with the mask b of their scheme.
   struct Family {
     LatticePoint e, f;  ///< d(P) = c(P+e+f) - c(P+e) - c(P+f) + c(P)
     std::map<LatticePoint, Algebraic> mask;
@@ -32,14 +34,16 @@ struct DerivativeTail {
   std::vector<Family> families;
   int steps = 0;     ///< L
   Ball contraction;  ///< D^L * norm, below 1
-  /// Kinds of pieces, with the points that they and all their descendants depend on as controls; no functions.
+  /// Kinds of pieces; `controls` are the points that a piece and all its descendants depend on; no functions.
   RegularPieces pieces;
-  std::vector<std::vector<SecondDifference>> around;  ///< by piece: those that bound its tail
-  std::vector<std::array<LatticePoint, 2>> bases;     ///< by piece: edges from there along e1 and along e2 are its own
-  std::array<Ball, 2> factor;                         ///< for the derivatives along e1 and e2
+  std::vector<std::vector<SecondDifference>> around;  ///< by piece: second differences that enter the bound
+  std::vector<std::array<LatticePoint, 2>> bases;     ///< by piece: starts of its edges along e1 and along e2
+  std::array<Ball, 2> factor;                         ///< factor of the bound for derivatives along e1 and e2
 };
 
-/// @return  nothing where the mask does not divide, is dual, or no norm up to `most` steps is small enough
+/// Returns the bound of a mask.
+/// @param most  largest number of steps L to try
+/// @return  nothing if the mask has no such factors, is dual, or no norm up to `most` steps is small enough
 std::optional<DerivativeTail> derivative_tail(const RegularMask<Algebraic>& mask, int most = 6);
 
 }  // namespace sublimit

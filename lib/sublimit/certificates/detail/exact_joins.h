@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Joins of curves and patches decided without rounding: every double is a ratio, and so is what recipes give as p/q.
+// Joins of curves and patches decided without rounding: every double is a rational number, and so are the p/q
+// of recipes.
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,7 +14,7 @@
 namespace sublimit {
 
 /// Returns exact numbers equal to these doubles.
-/// @throws AnalysisError  one is not finite
+/// @throws AnalysisError  a number that is not finite
 BezierPiece<Rational> in_ratios(const BezierPiece<double>& piece);
 BezierPatch<Rational> in_ratios(const BezierPatch<double>& patch);
 
@@ -27,7 +28,7 @@ SurfaceJoin exact_surface_join(const BezierPatch<Rational>& left, const BezierPa
 /// Returns for every seam of kind `knot`, `period` or `sides` the orders that hold for patches of exactly these
 /// doubles: sides that differ in the last bit have a gap. Nothing for other seams.
 /// @param seams  found in the same patches (patch_seams)
-/// @param exact  nets that are known without rounding, by patch: of its degrees and faces. None, or one entry a patch
+/// @param exact  exact nets by patch, with its degrees and faces, where known; empty, or one entry per patch
 std::vector<std::optional<JoinOrders>> exact_seams(std::span<const PatchColumns> patches, Coordinates coordinates,
                                                    std::span<const PatchSeam> seams,
                                                    std::span<const std::optional<SeamNet<Rational>>> exact = {});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Null spaces of B - lambda for an eigenvalue lambda, exactly: linear algebra over K(lambda) = K[x]/(g), g(lambda) = 0.
-// Where a pivot turns out to be neither zero nor invertible, g falls apart, and the factor that has lambda as its root
-// goes on (dynamic evaluation: Della Dora, Dicrescenzo, Duval 1985).
+// If a pivot is neither zero nor invertible, g is factored, and the computation continues with the factor that
+// has the root lambda (dynamic evaluation: Della Dora, Dicrescenzo, Duval 1985).
 #include <optional>
 #include <vector>
 
@@ -16,16 +16,17 @@ struct ExactKernel {
   Polynomial modulus;                            ///< g
   std::vector<std::vector<Polynomial>> vectors;  ///< a basis of the null space; B x = lambda x modulo g
 
-  /// Vector i, in balls.
+  /// Returns an enclosure of vector i.
   std::vector<ComplexBall> enclosure(int i, long bits = 128) const;
 };
 
-/// Eigenvectors of lambda, a basis. Right ones; left ones are those of the transposed matrix.
+/// Returns a basis of the right eigenvectors of lambda. Left ones are those of the transposed matrix.
 ExactKernel exact_eigenvectors(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda);
 
-/// The eigenvector of lambda in balls, where it is certain that there is but one, up to its length: no number is
-/// reduced, which exactly takes minutes where matrices are large. Nothing: there may be several.
-/// @param bits  of working precision
+/// Returns an enclosure of the eigenvector of lambda, if it is certainly unique up to scaling. Avoids exact
+/// elimination, which takes minutes for large matrices.
+/// @param bits  working precision
+/// @return  nothing if there may be several
 std::optional<std::vector<ComplexBall>> enclosed_eigenvector(const DenseMatrix<Algebraic>& B,
                                                              const AlgebraicRoot& lambda, long bits = 128);
 
@@ -33,8 +34,8 @@ std::optional<std::vector<ComplexBall>> enclosed_eigenvector(const DenseMatrix<A
 /// (B - lambda)^length u = 0. They span the eigenvectors that dominate powers of B if such chains do; some may be zero.
 ExactKernel exact_chain_ends(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda, int length);
 
-/// Sizes of the Jordan blocks of lambda, descending.
-/// @param multiplicity  algebraic
+/// Returns the sizes of the Jordan blocks of lambda, descending.
+/// @param multiplicity  algebraic multiplicity of lambda
 std::vector<int> jordan_sizes(const DenseMatrix<Algebraic>& B, const AlgebraicRoot& lambda, int multiplicity);
 
 }  // namespace sublimit

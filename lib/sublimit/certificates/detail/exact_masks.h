@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Limit masks as exact numbers, where the field of the masks has them: the position always, tangents where the
-// subdominant eigenvalue lies in it (Loop's 3/8 + 1/4 cos(2 pi/n); not Catmull-Clark's, which has a square root).
+// Limit masks as exact numbers of the field of the masks. The position always has one; tangents do if the
+// subdominant eigenvalue lies in the field (Loop's 3/8 + 1/4 cos(2 pi/n) does; Catmull-Clark's, a square root,
+// does not).
 #include <optional>
 #include <vector>
 
@@ -10,13 +11,14 @@
 
 namespace sublimit {
 
-/// Masks by position in the slots of a patch (`patch.labels` says where they lie).
+/// Masks by position in the slots of a patch (see `patch.labels`).
 struct ExactMasks {
   std::vector<Algebraic> position;
-  std::optional<std::vector<Algebraic>> tangent1, tangent2;  ///< of closed centres; scaled as those of `isolated_limit`
+  std::optional<std::vector<Algebraic>> tangent1, tangent2;  ///< for closed centres; scaled as in `isolated_limit`
 };
 
-/// @param lambda  a real number that may be an eigenvalue of block 1; tangents are left out if it is no simple one
+/// Returns the limit masks of a patch.
+/// @param lambda  a real number; tangents are computed if it is a simple eigenvalue of block 1
 /// @throws AnalysisError  eigenvalue 1 is not simple
 ExactMasks exact_masks(const LocalPatch<Algebraic>& patch, const std::optional<Algebraic>& lambda = std::nullopt);
 

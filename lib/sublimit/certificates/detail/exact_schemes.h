@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The registry's schemes and local matrices in exact numbers, made once: else every file that uses them makes them all.
+// The registry's schemes and local matrices in exact numbers, instantiated once: saves every file that uses
+// them the instantiation.
 #include "sublimit/certificates/algebraic.h"
 #include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/schemes/schemes.h"

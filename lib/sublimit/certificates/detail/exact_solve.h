@@ -9,11 +9,11 @@
 
 namespace sublimit {
 
-/// Reduced row echelon form of M, in place.
-/// @return  columns of the pivots, row by row
+/// Brings M to reduced row echelon form, in place.
+/// @return  column of the pivot of each row
 std::vector<Eigen::Index> reduce_rows(DenseMatrix<Algebraic>& M);
 
-/// The one vector with M x = 0 and x_i = 1 for its last free component; nothing unless the kernel is a line.
+/// Returns the vector with M x = 0 whose last free component is 1; nothing unless the kernel has dimension 1.
 std::optional<DenseMatrix<Algebraic>> kernel_line(DenseMatrix<Algebraic> M);
 
 /// Returns the inverse of M, or nothing if it has none.

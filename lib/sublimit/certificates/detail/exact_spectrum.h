@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Eigenvalues of local matrices with their multiplicities and Jordan blocks, Fourier block by Fourier block, exactly,
-// and their order by modulus, decided.
+// Exact eigenvalues of local matrices, with multiplicities and Jordan blocks per Fourier block, and their exact
+// order by modulus.
 #include <optional>
 #include <vector>
 
@@ -13,15 +13,18 @@ namespace sublimit {
 /// One eigenvalue of one Fourier block.
 struct ExactEigenvalue {
   AlgebraicRoot value = {};
-  int block = 0;   ///< k = 0 ... n/2; block n - k has the conjugate. By a mirror: 0 even, 1 odd. -1 without symmetry
-  int copies = 1;  ///< 2 where block n - k is another one: the multiplicities below count once in each
-  int multiplicity = 1;     ///< algebraic, in the block
+  /// Fourier block k = 0 ... n/2 (block n - k has the conjugate). Mirror symmetry: 0 even, 1 odd. No symmetry:
+  /// -1.
+  int block = 0;
+  int copies = 1;           ///< 2 if block n - k differs from block k; multiplicities below count in each of them
+  int multiplicity = 1;     ///< algebraic multiplicity in the block
   std::vector<int> jordan;  ///< sizes of its Jordan blocks, descending
   int rank = 0;             ///< equal moduli have equal ranks; 0 is the largest modulus
   int geometric() const { return static_cast<int>(jordan.size()); }
   int largest_jordan() const { return jordan.empty() ? 0 : jordan[0]; }
 };
 
+/// All eigenvalues of a local matrix.
 struct ExactSpectrum {
   ExactBlocks blocks = {};
   std::vector<ExactEigenvalue> values = {};  ///< by rank, then by block
@@ -30,6 +33,7 @@ struct ExactSpectrum {
   std::vector<ExactEigenvalue> of_rank(int rank) const;
 };
 
+/// Returns the spectrum of a local matrix, or of given blocks.
 ExactSpectrum exact_spectrum(const LocalPatch<Algebraic>& patch);
 ExactSpectrum exact_spectrum(ExactBlocks blocks);
 /// Returns the eigenvalues of a real matrix without symmetry, ranked by modulus.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Neighbourhoods that look the same in a mirror: fans of a border, a crease or a corner (first spoke and last change
-// places) and darts (their sharp edge stays). Modes are even, equal at mirror images, or odd, opposite there; so a
-// local matrix that commutes with the mirror falls into two blocks.
+// Mirror symmetry of neighbourhoods: fans at a border, a crease or a corner (the first and the last spoke are
+// exchanged) and darts (the sharp edge is fixed). A local matrix that commutes with the mirror decomposes into
+// two blocks: of even modes, equal at mirror images, and of odd modes, opposite there.
 #include <optional>
 #include <vector>
 
@@ -10,17 +10,18 @@
 
 namespace sublimit {
 
-/// The mirror image of a label of n sectors.
-/// @param closed  the last spoke is the first one
+/// Returns the mirror image of a label among n sectors.
+/// @param closed  true if the last spoke is the first one
 SectorLabel mirrored(const SectorLabel& label, int n, bool closed);
 
-/// Positions of mirror images; nothing where a point has none, or the matrix does not commute with the mirror (checked
-/// for every entry).
+/// Returns the position of the mirror image of each point; nothing if a point has none, or the matrix does not
+/// commute with the mirror (checked for every entry).
 std::optional<std::vector<Index>> mirror_images(const LocalPatch<Algebraic>& patch);
 
-/// The even block, over pairs of mirror images and points that are their own, then the odd block, over pairs:
-/// B(i, j) = A(i, j) +- A(i, image of j). An eigenvector x of it is one of A with the values x_i and +-x_i on pair i.
-/// @param images  as above
+/// Returns the even block, over pairs of mirror images and fixed points, and the odd block, over pairs: B(i, j)
+/// = A(i, j) +- A(i, image of j). An eigenvector x of a block is one of A with the values x_i and +-x_i on pair
+/// i.
+/// @param images  result of `mirror_images`
 ExactBlocks mirror_blocks(const DenseMatrix<Algebraic>& A, const std::vector<Index>& images);
 
 }  // namespace sublimit

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What happens where FLINT, Arb, GMP or MPFR get no memory. They have no way to report it: by themselves they abort,
-// and C functions in the middle of their work cannot be left by an exception.
+// Handling of allocation failures in FLINT, Arb, GMP and MPFR. They cannot report them: they abort by default,
+// and exceptions must not pass through their C functions.
 
 namespace sublimit {
 
-/// Calls `handler` where these libraries get no memory, in this process from now on, instead of abort().
+/// Makes these libraries call `handler` instead of abort() when an allocation fails, for the rest of the
+/// process.
 ///
-/// It is called by the thread that needs memory and must end the process: neither return nor throw. Allocations go to
-/// malloc as before, so numbers made earlier stay valid. For programs, at their start; a library leaves this to the
-/// program that it is used by.
-/// @param handler  takes no memory itself
+/// The handler runs in the thread that needs memory and must end the process: it may neither return nor throw.
+/// Allocations still use malloc, so numbers made earlier stay valid. To be called by programs at their start,
+/// not by libraries.
+/// @param handler  must not allocate memory
 void set_out_of_memory_handler(void (*handler)());
 
 }  // namespace sublimit

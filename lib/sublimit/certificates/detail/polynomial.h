@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Polynomials in one variable over cyclotomic fields, exactly: division, common factors, squarefree factors, and
-// rigorous enclosures of the roots.
+// Exact polynomials in one variable over cyclotomic fields: division, common factors, squarefree factors, and
+// rigorous enclosures of roots.
 #include <vector>
 
 #include "sublimit/certificates/algebraic.h"
@@ -9,10 +9,11 @@
 
 namespace sublimit {
 
+/// A polynomial; its leading coefficient is not zero.
 class Polynomial {
  public:
   Polynomial() = default;  ///< zero
-  /// Coefficients of 1, x, x^2 ...
+  /// @param coefficients  of 1, x, x^2 ...
   explicit Polynomial(std::vector<Algebraic> coefficients);
   static Polynomial x() { return Polynomial({0, 1}); }
 
@@ -37,12 +38,12 @@ class Polynomial {
   Polynomial derivative() const;
   /// Returns the polynomial divided by its leading coefficient.
   Polynomial monic() const;
-  /// The polynomial whose roots are the conjugates, or the negatives, of the roots.
+  /// Returns the polynomial whose roots are the conjugates, or (`negated`) the negatives, of the roots.
   Polynomial conj() const;
   Polynomial negated() const;
 
   std::string text() const;        ///< "x^2-21/32*x+1/16"
-  std::string exact_text() const;  ///< exact texts of the coefficients of 1, x, x^2 ..., parted by "; "
+  std::string exact_text() const;  ///< exact texts of the coefficients of 1, x, x^2 ..., separated by "; "
   static Polynomial parse(std::string_view text);
 
  private:
@@ -53,23 +54,25 @@ class Polynomial {
 struct Division {
   Polynomial quotient, remainder;
 };
-/// @throws AnalysisError  the divisor is zero
+/// Returns quotient and remainder of a by b.
+/// @throws AnalysisError  b is zero
 Division divide(const Polynomial& a, const Polynomial& b);
-/// Monic.
+/// Returns the greatest common divisor, monic.
 Polynomial gcd(Polynomial a, Polynomial b);
 
 struct PolynomialFactor {
   Polynomial factor;  ///< monic
   int multiplicity = 1;
 };
-/// Squarefree, pairwise coprime factors; those over the rationals are irreducible.
+/// Returns squarefree, pairwise coprime factors with their multiplicities; rational ones are irreducible.
 std::vector<PolynomialFactor> squarefree_factors(const Polynomial& p);
 
-/// Disjoint enclosures of all roots of a squarefree polynomial, of radius below 2^-bits relative to 1; real roots of
-/// real polynomials have imaginary part zero.
+/// Returns disjoint enclosures of all roots of a squarefree polynomial, of absolute radius below 2^-bits. Real
+/// roots of real polynomials have imaginary part zero.
 std::vector<ComplexBall> isolated_roots(const Polynomial& squarefree, long bits);
 
-/// All roots are found apart at a modest precision, so the polynomial is squarefree. If not, nothing is known.
+/// True if all roots are isolated at a modest precision, so that the polynomial is squarefree. False:
+/// undecided.
 bool has_isolated_roots(const Polynomial& p);
 
 /// Returns the characteristic polynomial det(x - A), exactly.

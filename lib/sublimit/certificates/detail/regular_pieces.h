@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The polynomials that a scheme's limit on regular meshes consists of, found from its mask alone and then verified.
+// The polynomials of a scheme's limit on regular meshes, computed from its mask alone and verified.
 //
-// Limit values at corners are left eigenvectors of the mask; refinement carries them to all dyadic places, and through
-// enough of them goes one polynomial a piece: Bernstein coefficients = M * control points. It is the limit if
+// Limit values at corners are left eigenvectors of the mask; refinement gives those at all dyadic places, and
+// enough of them determine one polynomial per piece: Bernstein coefficients = M * control points. It is the
+// limit if
 //
 //   M_child S = D M         exactly, for every child of every piece (S the rows of the mask, D de Casteljau onto it)
 //
-// and rows of M sum to one: then M applied to the points of level k, which converge to the limit around the piece,
-// gives coefficients that all converge to the limit there, and are those of the one polynomial.
+// and the rows of M sum to one: the points of level k converge to the limit around the piece, so M applied to
+// them gives coefficients that converge to the limit too, and by the equation these are coefficients of the
+// same polynomial.
 #include <array>
 #include <optional>
 #include <vector>
@@ -19,34 +21,38 @@
 
 namespace sublimit {
 
-/// A kind of piece, in the cell whose least corner is the origin.
+/// A kind of piece, in the cell at the origin.
 struct RegularPiece {
   PieceShape shape = PieceShape::square;
-  std::array<LatticePoint, 3> corners;          ///< u = v = 0, u = 1, v = 1
-  std::vector<LatticePoint> controls;           ///< the points that it depends on
-  std::vector<Bernstein<Algebraic>> functions;  ///< by control point: a column of M
+  std::array<LatticePoint, 3> corners;          ///< corners u = v = 0, u = 1, v = 1
+  std::vector<LatticePoint> controls;           ///< control points that it depends on
+  std::vector<Bernstein<Algebraic>> functions;  ///< function of each control point: a column of M
 };
 
+/// All kinds of pieces of a scheme.
 struct RegularPieces {
   RegularMask<Algebraic> mask;
-  int degree = 0;      ///< of each coordinate (squares), or in all (triangles)
-  int continuity = 0;  ///< C^continuity across all edges, exactly; at least the degree where pieces are one polynomial
+  int degree = 0;      ///< degree in each parameter (squares), or total degree (triangles)
+  int continuity = 0;  ///< exact k of C^k across all edges; at least the degree if all pieces are one polynomial
   std::vector<RegularPiece> pieces;
 };
 
-/// A child of piece `parent`: piece `piece` of cell `cell` in the refined plane, at these places of the parent.
+/// A child of piece `parent`: piece `piece` of cell `cell` in the refined plane, with its corners as places of
+/// the parent.
 struct ChildPiece {
   size_t parent, piece;
   LatticePoint cell;
   std::array<PiecePlace<Algebraic>, 3> corners;
 };
+/// Returns the children of all pieces.
 std::vector<ChildPiece> child_pieces(const std::vector<RegularPiece>& pieces, int dilation = 2);
 
-/// Kinds of pieces without their polynomials.
+/// Returns kinds of pieces without polynomials: squares, or triangles.
 std::vector<RegularPiece> squares();
 std::vector<RegularPiece> triangles();
 
-/// Squares, triangles, or squares in four triangles, of the least degree up to `most`; nothing where none passes.
+/// Returns the pieces of a mask as squares, triangles, or squares cut into four triangles, of the least
+/// possible degree up to `most`; nothing if none satisfies the equation.
 std::optional<RegularPieces> regular_pieces(const RegularMask<Algebraic>& mask, int most = 6);
 
 }  // namespace sublimit

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The plane around a sector: sector 0 and its neighbours unrolled, so that the regular part of a neighbourhood reads
-// like the regular mesh. What would lie on both sides of the centre at once has no label.
+// The plane around a sector: sector 0 and its neighbours unrolled, so that regular parts of a neighbourhood
+// have the coordinates of a regular mesh. Places opposite to sector 0 are ambiguous and have no label.
 #include <optional>
 
 #include "sublimit/neighborhood/regular_mask.h"
 
 namespace sublimit {
 
-/// The label of a point of the plane around sector `0` of n; in the normal form of sector_labels.h, sectors 0 to n - 1.
+/// Returns the label of a place of the plane around sector 0 of n, in the normal form of sector_labels.h with
+/// sectors 0 to n - 1; nothing if it has none.
 inline std::optional<SectorLabel> label_at(LatticePoint p, bool triangular, int n) {
   int sector = 0;
   if (p.y2 < 0) {
@@ -28,7 +29,7 @@ inline std::optional<SectorLabel> label_at(LatticePoint p, bool triangular, int 
   return SectorLabel{(sector + n) % n, p.x2, p.y2};
 }
 
-/// Rings from the centre, in halves: corners of cells have even ones.
+/// Returns the number of the ring of a place around the centre, in halves.
 inline int ring2(LatticePoint p, bool triangular) { return triangular ? p.x2 + p.y2 : std::max(p.x2, p.y2); }
 
 }  // namespace sublimit

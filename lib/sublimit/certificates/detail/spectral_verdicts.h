@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What spectra alone decide, from exact masks: convergence, the hypotheses of Reif's criterion and their failure, how
-// curvature behaves, which shapes there are. Statements hold for generic data, as these theorems do.
+// Verdicts from exact spectra alone: convergence, the hypotheses of Reif's criterion, the behaviour of
+// curvature, and the possible shapes. Like the theorems, the statements are about generic data.
 #include <optional>
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace sublimit {
 
-/// Returns an exact verdict, by all rows of the local matrix.
+/// Returns whether all rows of the local matrix sum to one, exactly.
 Hypothesis rows_sum_to_one(const LocalPatch<Algebraic>& patch);
 /// Returns whether the weights of each new point sum to 1, so that affine maps commute with refinement.
 Verdict affine_invariance(const ExactAnalysis& analysis);
@@ -24,16 +24,17 @@ Verdict spectral_c1(const ExactAnalysis& analysis);
 /// Subdominant and subsubdominant eigenvalues, lambda and mu, and their ratio, if Reif's hypotheses hold.
 struct Subdominant {
   ExactEigenvalue lambda = {};
-  std::vector<ExactEigenvalue> mu = {};  ///< all of the next modulus
-  int mu_to_lambda2 = 0;                 ///< sign of |mu| - lambda^2, exactly
+  std::vector<ExactEigenvalue> mu = {};  ///< all eigenvalues of the next modulus
+  int mu_to_lambda2 = 0;                 ///< exact sign of |mu| - lambda^2
   Ball ratio = {};                       ///< |mu|/lambda^2
-  int largest_jordan = 1;                ///< of mu
-  std::vector<int> mu_blocks = {};       ///< k = 0 ... n - 1, ascending
+  int largest_jordan = 1;                ///< size of the largest Jordan block of mu
+  std::vector<int> mu_blocks = {};       ///< Fourier blocks of mu, k = 0 ... n - 1, ascending
 };
+/// Returns these eigenvalues; nothing if Reif's hypotheses do not hold.
 std::optional<Subdominant> subdominant(const ExactAnalysis& analysis);
 
-/// Facts that statements of second order need besides the spectrum. Each becomes a hypothesis of the verdicts that use
-/// it: if it is not known to hold, neither are they.
+/// Facts beyond the spectrum that statements of second order require. Each is a hypothesis of the verdicts that
+/// use it: if it is undecided, so are they.
 struct SecondOrderGiven {
   Hypothesis c1 = {"the surface is C^1 at the point", std::nullopt};
   /// Holds for piecewise polynomial C^1 surfaces, and for all C^2 ones.
@@ -41,16 +42,19 @@ struct SecondOrderGiven {
   Hypothesis continuous = {"regular surfaces are C^2", std::nullopt};
 };
 
-/// Finding "curvature": flat, bounded, logarithmic or divergent, whatever the answer.
+/// Returns the verdict on curvature. Finding "curvature": flat, bounded, logarithmic or divergent, whatever the
+/// answer.
 Verdict curvature(const ExactAnalysis& analysis, const SecondOrderGiven& given);
-/// Finding "shapes": all, elliptic, hyperbolic or other.
+/// Returns the verdict on possible shapes. Finding "shapes": all, elliptic, hyperbolic or other.
 Verdict shapes(const ExactAnalysis& analysis, const SecondOrderGiven& given);
-/// Finding "p": the least upper bound of exponents, as a decimal; "null": every p.
+/// Returns the verdict on the exponents p for which curvature is integrable. Finding "p": their least upper
+/// bound as a decimal; "null": every p.
 Verdict curvature_integrability(const ExactAnalysis& analysis, const SecondOrderGiven& given);
+/// Returns the verdict on C^2, from the spectrum.
 Verdict spectral_c2(const ExactAnalysis& analysis, const SecondOrderGiven& given);
 
-/// One side of a border, a crease or a corner: which two modes lead. An argument for generic data; that the map of the
-/// two modes is regular is not looked at, so what holds is evidence.
+/// Returns whether one side of a border, crease or corner has a tangent plane: two modes must dominate. For
+/// generic data. Regularity of the map of these modes is not checked, so a positive answer is evidence only.
 Verdict tangent_plane(const ExactAnalysis& analysis);
 
 }  // namespace sublimit

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a proof of C^1 rests on, as JSON, and a checker that sees it again. The checker takes nothing from the prover
-// but arithmetic: it interpolates where the prover multiplies Bernstein polynomials, and encloses the eigenvector by a
-// Newton step of its own.
+// Witnesses: the data that a proof of C^1 rests on, as JSON, with an independent checker. The checker shares
+// only arithmetic with the prover: it interpolates where the prover multiplies Bernstein polynomials, and
+// encloses the eigenvector by its own Newton step.
 //
 //   {"format": "sublimit-witness", "version": 1, "kind": "c1", "scheme": name, "n": valence,
 //    "grid": "square" | "triangular", "dual": whether points lie around a face,
@@ -13,8 +13,8 @@
 //    "lambda": ball, "net": [[x, y, complex ball] ...],                          of sector 0, where the rows are
 //    "ring": r, "leaves": [[piece, x, y, path, least] ...]}                      cells, quarters of quarters, bounds
 //
-// What it cannot see is whether the rows are those of the scheme, that rules far from the centre are the mask, and that
-// the mask converges.
+// The checker cannot verify that the rows are those of the scheme, that rules far from the centre are the mask,
+// and that the mask converges.
 #include <string>
 #include <vector>
 
@@ -22,7 +22,9 @@
 
 namespace sublimit {
 
-/// @param certificate  proved
+/// Returns the witness of a proof.
+/// @param scheme       name of the scheme
+/// @param certificate  a certificate whose verdict is `proved`
 std::string c1_witness(const std::string& scheme, const C1Certificate& certificate, const RegularPieces& pieces);
 
 /// Returns the errors of a witness; none if it proves its statement.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Matrices of ratios, and what FLINT decides about them exactly.
+// Matrices of rational numbers, with exact decisions by FLINT.
 #include <Eigen/Core>
 
 #include <vector>
@@ -11,11 +11,11 @@ namespace sublimit {
 
 using RationalMatrix = Eigen::Matrix<Rational, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Reduced row echelon form of M, in place.
-/// @return  columns of the pivots, row by row
+/// Brings M to reduced row echelon form, in place.
+/// @return  column of the pivot of each row
 std::vector<Eigen::Index> reduce_rows(RationalMatrix& M);
 
-/// @param M  square
+/// True if a square matrix is singular.
 bool is_singular(const RationalMatrix& M);
 
 }  // namespace sublimit

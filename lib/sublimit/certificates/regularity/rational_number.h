@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Exact ratios, of any length, by FLINT: masks of curve schemes and of regular meshes are such numbers. An irrational
-// constant is no ratio, and neither is what is computed from it: masks of irregular sites may have such weights as long
-// as nobody uses them.
+// Rational numbers of any length, by FLINT: weights of curve schemes and of regular meshes. A result that
+// involves an irrational constant is marked as irrational, without a value: masks of irregular sites may have
+// such weights as long as they are not used.
 #include <flint/fmpq.h>
 
 #include <compare>
@@ -15,6 +15,7 @@
 
 namespace sublimit {
 
+/// A rational number, or the mark of an irrational one.
 class Rational {
  public:
   Rational() { fmpq_init(x_); }
@@ -28,8 +29,8 @@ class Rational {
   Rational(Ratio r) : Rational(r.p, r.q) {}  // NOLINT: so are options
   /// @throws AnalysisError  q = 0
   Rational(long p, long q);
-  /// Makes the exact fraction that a double is.
-  /// @throws InvalidMesh  it is not finite, as coordinates may be that overflow
+  /// Makes the exact value of a double.
+  /// @throws InvalidMesh  it is not finite, as coordinates that overflowed
   explicit Rational(double value);
   explicit Rational(const fmpq_t value) : Rational() { fmpq_set(x_, value); }
   Rational(const Rational& other) : Rational() { *this = other; }
@@ -78,7 +79,7 @@ class Rational {
   friend Rational operator-(Rational a, const Rational& b) { return std::move(a -= b); }
   friend Rational operator*(Rational a, const Rational& b) { return std::move(a *= b); }
   friend Rational operator/(Rational a, const Rational& b) { return std::move(a /= b); }
-  /// Nothing is equal to, below or above an irrational number: which one it is, is not known.
+  /// An irrational number, whose value is unknown, is unordered with all numbers.
   friend bool operator==(const Rational& a, const Rational& b) {
     return a.is_ratio_ && b.is_ratio_ && fmpq_equal(a.x_, b.x_);
   }
@@ -96,13 +97,13 @@ class Rational {
   bool is_ratio_ = true;
 };
 
-/// `-9/64`, or `2`.
+/// Returns the number as text: `-9/64`, or `2`.
 std::string to_string(const Rational& r);
 
 template <>
 struct Number<Rational> {
   static Rational ratio(int p, int q) { return {p, q}; }
-  /// Other than 0, +-1/2 and +-1 such cosines are irrational.
+  /// Returns cos(2 pi k/n): 0, +-1/2 or +-1; all others are irrational.
   static Rational cos_2pi(int k, int n);
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The registries' schemes and local matrices in ratios, made once: else every file that uses them makes them all. And
-// regular masks of schemes that are there in algebraic numbers.
+// The registries' schemes and local matrices in rational numbers, instantiated once: saves every file that uses
+// them the instantiation. Also conversion of regular masks from algebraic numbers.
 #include "sublimit/certificates/algebraic.h"
 #include "sublimit/certificates/regularity/rational_number.h"
 #include "sublimit/curves/schemes/curve_schemes.h"

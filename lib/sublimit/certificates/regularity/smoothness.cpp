@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 
 namespace sublimit {
 namespace {

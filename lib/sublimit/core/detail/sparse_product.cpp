@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sublimit/base/detail/huge_pages.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/uninitialized.h"

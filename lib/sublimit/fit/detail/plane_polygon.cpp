@@ -49,21 +49,21 @@ MatrixX3d regular_polygon(const MatrixX3d& corners, const Vector3d& normal, doub
 
 }  // namespace
 
-Turn turn_across(PlanePolygon& polygon, const Vector3d& normal, double scale) {
+OrientationResult turn_across(PlanePolygon& polygon, const Vector3d& normal, double scale) {
   const Vector3d N = normal.stableNormalized(), position = polygon.corners.transpose() * polygon.weights.col(0);
   MatrixX3d d = polygon.corners.rowwise() - position.transpose();
   const double radius = d.rowwise().norm().mean(), largest = polygon.corners.cwiseAbs().maxCoeff();
-  if (radius <= 1e-12 * largest) return Turn::impossible;
+  if (radius <= 1e-12 * largest) return OrientationResult::impossible;
   const Vector3d t1 = d.transpose() * polygon.weights.col(1), t2 = d.transpose() * polygon.weights.col(2);
   const Vector3d across = t1.cross(t2);
   const auto reach = [&](int column) { return polygon.weights.col(column).cwiseAbs().dot(d.rowwise().norm()); };
-  Turn turn = Turn::plain;
+  OrientationResult turn = OrientationResult::plain;
   if (across.norm() <= least_span * reach(1) * reach(2)) {
-    turn = Turn::rebuilt;
+    turn = OrientationResult::rebuilt;
     d = regular_polygon(d, N, radius);
   } else {
     const Vector3d own = across.normalized();
-    if (own.dot(N) < 0) turn = Turn::over;
+    if (own.dot(N) < 0) turn = OrientationResult::over;
     d = (d * turn_between(own, N, t1.normalized()).transpose()).eval();
   }
   d *= scale;

@@ -11,7 +11,7 @@ struct PlanePolygon {
 };
 
 /// Result of orienting a polygon to a normal.
-enum class Turn {
+enum class OrientationResult {
   plain,
   over,        ///< its own normal opposes the given one
   rebuilt,     ///< it had no tangent plane: corners are those of a regular polygon now
@@ -21,7 +21,7 @@ enum class Turn {
 /// Projects the polygon onto its own tangent plane and rotates that, by the least angle, so that tangent 1 x tangent 2
 /// is along the normal; then scales it. The limit position stays.
 /// @param normal  of any length > 0
-Turn turn_across(PlanePolygon& polygon, const Eigen::Vector3d& normal, double scale = 1);
+OrientationResult turn_across(PlanePolygon& polygon, const Eigen::Vector3d& normal, double scale = 1);
 
 /// Translates the polygon, so that its limit position is a given point.
 void move_to(PlanePolygon& polygon, const Eigen::Vector3d& position);

@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/fit/detail/plane_polygon.h"
 #include "sublimit/fit/detail/vertex_limits.h"
@@ -180,11 +180,11 @@ PointNormalMesh point_normal_mesh(const Scheme<double>& scheme, const Mesh& mesh
       taken[v] = true;
     }
     if (target.normal) {
-      const Turn turn = turn_across(polygon, *target.normal, options.size / 0.5);
-      if (turn == Turn::impossible)
+      const OrientationResult turn = turn_across(polygon, *target.normal, options.size / 0.5);
+      if (turn == OrientationResult::impossible)
         throw InvalidMesh(at(target) +
                           ": its faces have no extent, so there is no polygon to turn; move its neighbours");
-      if (turn == Turn::over && (result.folded.empty() || result.folded.back() != target.vertex))
+      if (turn == OrientationResult::over && (result.folded.empty() || result.folded.back() != target.vertex))
         result.folded.push_back(target.vertex);
     }
     move_to(polygon, target.position);

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/mesh/topology.h"
 
 namespace sublimit {

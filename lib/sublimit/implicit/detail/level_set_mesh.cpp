@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/limit/detail/limit_cache.h"
 
 namespace sublimit {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/io/detail/free_form_counts.h"
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 
 namespace sublimit {
 

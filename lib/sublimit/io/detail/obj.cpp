@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/obj_indices.h"
 #include "sublimit/io/detail/obj_keywords.h"
 #include "sublimit/io/detail/obj_names.h"

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/obj_indices.h"
 #include "sublimit/io/detail/text_scanner.h"
 

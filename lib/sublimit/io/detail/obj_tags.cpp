@@ -7,8 +7,8 @@
 #include <limits>
 #include <span>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/mesh/detail/edge_lookup.h"
 
 namespace sublimit {

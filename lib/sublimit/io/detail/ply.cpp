@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/ply_header.h"
 #include "sublimit/io/detail/ply_values.h"
 #include "sublimit/io/detail/text_scanner.h"

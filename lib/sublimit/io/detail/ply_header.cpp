@@ -4,8 +4,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/text_scanner.h"
 
 namespace sublimit {

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/ply_header.h"
 #include "sublimit/io/detail/text_scanner.h"
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Limits of the places where pieces meet that are no polynomials: vertices of a level, and middles of its faces. Their
-// tangents are those of the characteristic map, or of one side of a crease.
+// Limits at corners of non-polynomial pieces: at vertices of a level and middles of its faces. Tangents come
+// from the limit masks: those of the characteristic map, or of one side of a crease.
 #include <optional>
 #include <utility>
 
@@ -13,11 +13,12 @@ namespace sublimit {
 /// Limits at corners, computed when first needed and cached. Threads may share it.
 class CornerLimits {
  public:
-  /// @param masks  of the scheme, shared with other levels; must stay
-  /// @param level  which must stay
+  /// @param masks  cache of the scheme's limits, may be shared with other levels; must outlive this
+  /// @param level  must outlive this
   CornerLimits(LimitCache& masks, const Level& level) : level_(level), masks_(masks) {}
   CornerLimits(LimitCache&, const Level&&) = delete;
-  /// Null where there is no limit. A vertex is seen from the face of `centre.start`.
+  /// Returns the limit at a centre, or null if there is none. For a vertex it is that of the side with the face
+  /// of `centre.start`.
   const LimitRows* at(const Centre& centre) const;
 
  private:

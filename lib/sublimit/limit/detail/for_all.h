@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Statements about every element of a set, as verdicts need them. Elements that were looked at are counted: where there
-// was none the statement is not decided, so that nothing is ever proved of an empty set.
+// Universally quantified statements for verdicts. Elements are counted: without any the statement is undecided,
+// so that nothing is proved about an empty set by mistake.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,11 +9,12 @@
 
 namespace sublimit {
 
+/// Accumulator for a statement about every element of a set.
 class ForAll {
  public:
-  /// Takes the result of one element into account.
-  /// @param holds  whether the statement holds of it; nothing if that is not decided
-  /// @param where  names the element, for messages
+  /// Adds the result for one element.
+  /// @param holds  whether the statement holds for it; nothing if undecided
+  /// @param where  name of the element, for messages
   void look(std::optional<bool> holds, std::string where = {}) {
     ++looked_at_;
     if (holds == true) return;
@@ -22,14 +23,17 @@ class ForAll {
     known = true;
   }
 
-  /// True if elements were looked at and it holds of each; false if it fails for one; nothing if neither is known.
+  /// Returns true if the statement holds for all elements added and there are any, false if it fails for one,
+  /// else nothing.
   std::optional<bool> holds() const {
     if (fails_) return false;
     if (open_ || looked_at_ == 0) return std::nullopt;
     return true;
   }
+  /// Returns the number of elements added.
   std::int64_t looked_at() const { return looked_at_; }
-  /// The first element that it fails for; if there is none, the first one that is not decided.
+  /// Returns the name of the first element for which the statement fails; if there is none, of the first
+  /// undecided one.
   const std::string& where() const { return where_; }
 
  private:
@@ -38,7 +42,7 @@ class ForAll {
   std::string where_;
 };
 
-/// Returns whether a condition holds of every element of a range: nothing of an empty one.
+/// Returns whether a condition holds for every element of a range; nothing if the range is empty.
 template <class Range, class Condition>
 std::optional<bool> holds_for_all(const Range& range, const Condition& condition) {
   ForAll all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A part of a surface in boxes that hold it, for searches in space.
+// Bounding boxes of a part of a surface, for searches in space.
 #include <Eigen/Geometry>
 
 #include <span>
@@ -10,28 +10,34 @@
 
 namespace sublimit {
 
+/// A part of a surface, bounded by two boxes.
 struct LimitCell {
-  Place start;  ///< a place in it or, of slivers, close to it
-  /// All of it is about as near to its start in u and v.
+  Place start;  ///< a place in the cell, or close to it if the cell is a sliver
+  /// Estimated largest distance of the cell's places from `start`, in u and in v.
   double radius = 0;
-  Eigen::AlignedBox3d box;  ///< along the axes
-  /// A second box along the rows of a rotation, the last one near the normal; in these coordinates.
-  Eigen::Matrix3d frame;
+  Eigen::AlignedBox3d box;  ///< axis-aligned box
+  Eigen::Matrix3d frame;    ///< rotation to the coordinates of `own_box`; the last row is near the normal
   Eigen::AlignedBox3d own_box;
 
-  /// Square of the distance of a point from both boxes, at most that from the cell.
+  /// Returns a lower bound of the squared distance of a point from the cell: the larger one of those from both
+  /// boxes.
   double squared_distance(const Eigen::Vector3d& point) const;
-  /// Its own box is: where there are no folds such a cell is cut no further.
+  /// Returns true if `own_box` is thin (height at most 3% of its longest side). Such a cell is not subdivided,
+  /// unless it has folds (`turns`).
   bool is_thin() const;
 };
 
+/// Points whose convex hull contains a part of a surface.
 using Hull = std::vector<Eigen::Vector3d>;
 
-/// @param hull    not empty
-/// @param margin, of_width  widen the box by parts of its own sizes, and of the largest one
+/// Returns the cell with boxes around a hull.
+/// @param hull      not empty
+/// @param margin    widens each box on all sides, by this multiple of its size in the same direction
+/// @param of_width  widens each box on all sides, by this multiple of its largest size
 LimitCell hull_cell(const Hull& hull, const Place& start, double radius, double margin = 0, double of_width = 0);
 
-/// True if normals of the nets, Bernstein coefficients of one degree in both directions, differ much: there are folds.
+/// Returns true if normals of Bernstein nets differ much from their mean (cosine below 0.8), as at folds.
+/// @param nets  nets of the same degree in both directions, or of one total degree if `triangle`
 bool turns(std::span<const Points> nets, bool triangle);
 
 }  // namespace sublimit

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/neighborhood/sector_mesh.h"
 #include "sublimit/scheme/refine.h"

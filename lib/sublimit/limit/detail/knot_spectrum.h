@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Spectra of extraordinary vertices and faces between unequal knot intervals, where new knots go in the middle.
+// Spectra of extraordinary vertices and faces with unequal knot intervals, for schemes that halve intervals.
 #include <complex>
 #include <span>
 #include <vector>
@@ -9,12 +9,16 @@
 
 namespace sublimit {
 
-/// Eigenvalues of the subdivision matrix of two rings of quadrilaterals around a vertex, by falling modulus. The
-/// interval of a spoke is that of all edges which run like it, so that halving leaves the neighbourhood as it is. Of a
-/// dual scheme: of the corners of a face and the points around them; towards the corner before each has interval 1.
-/// @param scheme     with NewKnots::halving
-/// @param intervals  of the spokes, or of corners towards the next one, counter-clockwise, > 0; three at least
-/// @throws InvalidParameter  another rule for new knots, fewer of them, intervals that are not positive
+/// Returns the eigenvalues of the local subdivision matrix at a centre, by descending modulus.
+///
+/// Primal schemes: of two rings of quadrilaterals around a vertex. All edges opposite to a spoke have the
+/// interval of the spoke, so that halving reproduces the neighbourhood. Dual schemes: of the corners of a face
+/// and the points around them; the interval from a corner to the previous one is 1.
+/// @param scheme     a scheme with NewKnots::halving
+/// @param intervals  intervals of the spokes, or from each corner to the next, counter-clockwise; > 0, at least
+///                   three
+/// @throws InvalidParameter  another rule for new knots, fewer than three intervals, or one that is not
+///                           positive
 std::vector<std::complex<double>> knot_spectrum(const Scheme<double>& scheme, std::span<const double> intervals);
 
 }  // namespace sublimit

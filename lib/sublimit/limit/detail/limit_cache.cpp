@@ -16,7 +16,7 @@ void LimitCache::check(const Level& level) {
     const std::lock_guard lock(made_by_mutex_);
     if (made_by_.lock() == level.made_by) return;
   }
-  check_made_by(level, scheme_, "the dictionary of types (LimitCache)");
+  check_made_by(level, scheme_, "the cache");
   trust(level);
 }
 

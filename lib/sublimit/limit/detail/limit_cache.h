@@ -10,38 +10,45 @@
 #include "sublimit/core/detail/signature_hash.h"
 #include "sublimit/limit/detail/limit_masks.h"
 #include "sublimit/neighborhood/piece_types.h"
-#include "sublimit/scheme/check_scheme.h"
+#include "sublimit/scheme/detail/check_scheme.h"
 
 namespace sublimit {
 
+/// Cache of one scheme's limits. Threads may share it.
 class LimitCache {
  public:
-  /// @param max_pieces  a surface that needs more types of pieces, when there are so many, keeps them for itself
-  /// @throws InvalidParameter  a scheme that is not complete, as `check_scheme`
+  /// @param max_pieces  largest number of types of pieces in the cache; a surface that needs further types then
+  ///                    stores them itself
+  /// @throws InvalidParameter  an incomplete scheme (`check_scheme`)
   explicit LimitCache(const Scheme<double>& scheme, size_t max_pieces = size_t(1) << 16)
       : scheme_(check_scheme(scheme)), pieces_(scheme, max_pieces) {}
 
-  /// Limit masks of a vertex whose one-ring is all that they depend on. The reference stays valid as long as this.
+  /// Returns the limit masks of a vertex whose limit depends on its one-ring only. The reference is valid while
+  /// this exists.
+  /// @throws AnalysisError  no limit
   const LimitMasks& masks(const CanonicalNeighborhood& type);
-  /// Limits of an isolated extraordinary centre; null if there are none.
+  /// Returns the limit of an isolated extraordinary centre, or null if a centre of this type has no
+  /// child of its own type.
+  /// @throws AnalysisError  no limit
   const IsolatedLimit* isolated(const LocalType& type);
   /// Returns the types of the pieces between vertices.
   PieceTypes& pieces() { return pieces_; }
 
   const Scheme<double>& scheme() const { return scheme_; }
-  /// Throws unless this dictionary is of the scheme that made a level; looks at the masks once for each such scheme.
-  /// @throws InvalidParameter  it is of another scheme
+  /// Throws unless the scheme of this cache made a level. Compares masks only when the maker differs from that
+  /// of the level checked last.
+  /// @throws InvalidParameter  another scheme made it
   void check(const Level& level);
-  /// Skips the check for levels of the maker of this one.
+  /// Marks the maker of a level as checked: `check` accepts its levels without comparing masks.
   void trust(const Level& level);
-  /// Types of vertices, faces and borders that are known.
+  /// Returns the number of cached types of vertices, faces and borders.
   size_t num_types() const { return types_.size() + isolated_.size(); }
 
  private:
   Scheme<double> scheme_;
   PieceTypes pieces_;
   std::mutex made_by_mutex_;
-  std::weak_ptr<const Scheme<double>> made_by_;  // of the level that was checked last
+  std::weak_ptr<const Scheme<double>> made_by_;  // maker of the level checked last
   FoundByKey<LocalType, std::optional<IsolatedLimit>> isolated_;
   FoundByKey<std::vector<std::uint32_t>, LimitMasks, SignatureHash> types_;
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A limit surface with its points, cut into cells that are almost flat, each in boxes that hold it: what
-// searches in space need.
+// Limit surfaces cut into almost flat cells with bounding boxes, for searches in space.
 #include <vector>
 
 #include "sublimit/limit/detail/hull_cell.h"
@@ -9,12 +8,14 @@
 
 namespace sublimit {
 
-/// Cells of all of the surface but its holes, in the order of addresses.
-/// Polynomial pieces are cut until they are thin, and boxes hold their Bernstein coefficients; near extraordinary
-/// vertices pieces are cut into children, and boxes hold all points that these depend on. Where no piece is a
-/// polynomial that would be much too wide: there boxes hold a net of limit points, widened by a quarter.
-/// @param points  of the level, #V x 3
-/// @throws InvalidParameter  points that do not fit
+/// Returns the cells of the surface without its holes, by ascending address.
+///
+/// Polynomial pieces are subdivided until they are thin; their boxes contain the Bernstein coefficients. Other
+/// pieces, near extraordinary vertices, are cut into children; their boxes contain all points that these depend
+/// on, widened by `PieceType::reach`. If no piece of the scheme is a polynomial, such boxes would be much too
+/// large: they contain a grid of limit points instead, widened by a quarter, which is no proven bound.
+/// @param points  points of the surface's level, #V x 3
+/// @throws InvalidParameter  points of another shape
 std::vector<LimitCell> limit_cells(const LimitMap& surface, const Points& points);
 
 }  // namespace sublimit

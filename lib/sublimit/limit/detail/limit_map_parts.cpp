@@ -63,7 +63,7 @@ Scheme<double> without_preparation(Scheme<double> scheme) {
 /// @throws InvalidParameter  it is of another scheme
 std::shared_ptr<LimitCache> dictionary(const Scheme<double>& scheme, const Level& level,
                                        std::shared_ptr<LimitCache> shared) {
-  if (shared) check_same_scheme(scheme, shared->scheme(), level, "the dictionary of types (LimitCache)");
+  if (shared) check_same_scheme(scheme, shared->scheme(), level, "the cache");
   if (!shared || shared->pieces().is_full()) shared = std::make_shared<LimitCache>(scheme);
   shared->trust(level);
   return shared;

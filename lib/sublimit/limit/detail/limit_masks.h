@@ -16,30 +16,30 @@
 
 namespace sublimit {
 
-/// Masks by slot of a canonical neighbourhood.
+/// Limit masks of a vertex, by slot of its canonical neighbourhood.
 struct [[nodiscard]] LimitMasks {
   using Mask = Eigen::VectorXd;
 
-  /// Answers to the question if the surface has a tangent plane at the vertex, on this side, for generic control
-  /// points.
+  /// Whether one side of the surface has a tangent plane at the vertex, for generic control points.
   enum class Plane {
     yes,
-    slow,  ///< yes, but at a Jordan block: normals around the vertex converge like 1/steps only
-    tied,  ///< only for control points that take all of `second_order`, which decays like tangent2, in its direction
-    no,    ///< other modes do not decay faster than the tangents': a cone, a fold, or normals that differ for ever
+    slow,  ///< yes, but with a Jordan block: normals around the vertex converge only like 1/steps
+    tied,  ///< only if all vectors of `second_order`, which decay like tangent2, are parallel to it
+    no,    ///< other modes decay no faster than those of the tangents: a cone, a fold, or normals without a limit
   };
+  /// A side of the vertex: a closed fan, or a part of a fan between sharp edges or borders.
   struct Side {
-    Index fan = 0, first_corner = 0, num_corners = 0;  ///< corners of the neighbourhood's fan, counter-clockwise
+    Index fan = 0, first_corner = 0, num_corners = 0;  ///< range of corners in a fan, counter-clockwise
     Mask tangent1, tangent2;  ///< tangent1 x tangent2 is along the normal, per unit of the characteristic parameter
-    /// The next modes, for control points that make the tangents degenerate. Where more than some decay alike, sums of
-    /// them that span the same.
+    /// Masks of the next modes, for control points that make the tangents degenerate. If many modes decay at
+    /// the same rate: a few random sums of them, which span the same line or plane.
     std::vector<Mask> second_order;
     Plane plane = Plane::yes;
-    double lambda1 = 0, lambda2 = 0;  ///< moduli that the tangents shrink by in a step
+    double lambda1 = 0, lambda2 = 0;  ///< factors by which tangent1 and tangent2 shrink in a step
   };
 
-  Rule rule = Rule::smooth;  ///< once all finite sharpness is gone
-  int steps = 0;             ///< until the neighbourhood is stationary
+  Rule rule = Rule::smooth;  ///< rule of the vertex after finite sharpness has decayed
+  int steps = 0;             ///< steps until the neighbourhood is stationary
   Mask position;
   std::vector<Side> sides;
 };
@@ -52,13 +52,13 @@ LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood
 /// The limit of an isolated extraordinary centre.
 struct IsolatedLimit {
   LocalType type;
-  int depth = 0;  ///< of the walk on a mesh that must have this signature
-  std::vector<std::uint32_t> signature;
-  std::vector<Index> slots;  ///< of that walk; the masks are over these
-  LimitMasks masks;          ///< of one side
+  int depth = 0;                         ///< depth of the walk to compare on a mesh
+  std::vector<std::uint32_t> signature;  ///< signature that this walk must have
+  std::vector<Index> slots;              ///< slots of the walk that the masks are over
+  LimitMasks masks;                      ///< masks of one side
 };
 
-/// Limit masks of a type, or nothing where it does not have a child of its own type.
+/// Returns the limit of an isolated centre of a type; nothing if such a centre has no child of its own type.
 /// @throws AnalysisError  no limit, as above
 std::optional<IsolatedLimit> isolated_limit(const Scheme<double>& scheme, const LocalType& type);
 

@@ -30,7 +30,7 @@ Vector3d one_sided_normal(const Points& rows, const PieceCoordinates& p, bool tr
 
 }  // namespace
 
-Vector3d LimitMap::Parts::normal_of(const LimitStencil& s, const Points& local, const Place& sample,
+Vector3d LimitMap::Parts::normal_of(const LimitStencil& s, const Points& local, const Place& place,
                                     const Points& points) const {
   if (s.tangents.rows() < 2) return Vector3d::Zero();
   // Squares of huge or tiny tangents would leave the range of numbers; powers of two change no digit.
@@ -49,7 +49,7 @@ Vector3d LimitMap::Parts::normal_of(const LimitStencil& s, const Points& local, 
     const Vector3d a = Vector3d(tangents.row(0)) / scale1, b = Vector3d(tangents.row(1)) / scale2, cross = a.cross(b);
     if (cross.norm() > 1e-13 * a.norm() * b.norm() && cross.norm() > 1e-20) return cross.normalized();
   }
-  const Target at = target(sample);
+  const Target at = target(place);
   if (both && s.weights.rows() >= 3) {
     const LimitStencil second = s.weights.rows() == 6 ? s : stencil(find(at, 2));
     if (second.weights.rows() == 6) {

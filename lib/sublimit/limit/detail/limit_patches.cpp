@@ -186,11 +186,11 @@ struct LimitPatches::Loop {
     for (int k = 0; k < 3 * piece.tree->num_coefficients(); k += 8) __builtin_prefetch(c + k);
   }
 
-  /// False: to be done the long way.
+  /// Fast path of one row. Returns false if the general path is needed.
   template <int Order>
-  [[gnu::always_inline]] bool row(const Place& sample, bool normals, LimitSamples& out, std::int64_t i) const {
-    if (!parts.is_inside(sample)) return false;
-    const At target = at(sample);
+  [[gnu::always_inline]] bool row(const Place& place, bool normals, LimitSamples& out, std::int64_t i) const {
+    if (!parts.is_inside(place)) return false;
+    const At target = at(place);
     const Bound& piece = bound[target.number];
     const PatchTree& tree = *piece.tree;
     const PatchTree::Cell& cell = tree.cell(target.place.u, target.place.v);
@@ -235,7 +235,7 @@ struct LimitPatches::Loop {
       }
       patch = node->patch;
     }
-    const PieceCoordinates& place = places[depth];
+    const PieceCoordinates& inner = places[depth];
     const PieceCoordinates& p = target.place;
     LimitStatus status = LimitStatus::regular;
     const unsigned own_sides = piece.sides;
@@ -245,14 +245,14 @@ struct LimitPatches::Loop {
     }
     int order = Order;
     if (Order == 2 && second_jumps) {
-      if (is_on_knot(place, tree.total(), dual, tree.halves())) {
+      if (is_on_knot(inner, tree.total(), dual, tree.halves())) {
         order = 1;
         if (status == LimitStatus::regular) status = LimitStatus::unbounded_second;
       }
     }
-    if (tree.halves()) patch = 2 * (patch / 2) + (place.u < place.v ? 1 : 0);
+    if (tree.halves()) patch = 2 * (patch / 2) + (inner.u < inner.v ? 1 : 0);
     Jet jet;
-    evaluate_patch<Order>(tree, coefficients + 3 * (piece.first + std::int64_t(patch) * tree.num_coefficients()), place,
+    evaluate_patch<Order>(tree, coefficients + 3 * (piece.first + std::int64_t(patch) * tree.num_coefficients()), inner,
                           jet);
     if (Order >= 1) {
       if (aligned) {

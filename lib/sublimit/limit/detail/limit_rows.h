@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Limit rows of any places of a level, of any scheme: the one way to the limits of vertices, faces and borders. Where
-// the neighbourhood is a known type its masks are; elsewhere the faces around it are refined, by the scheme's own
-// matrices, until it is: L_k = L_{k+1} S_k. Places that never are have a position if their neighbourhood comes to
-// repeat itself.
+// Limit rows of vertices, faces and borders of a level, for any scheme. If the neighbourhood of the place has a
+// type with limit masks, these are used. Else the faces around it are refined by the scheme's own matrices
+// until it has: L_k = L_{k+1} S_k. Places that never reach such a type have only a position, if their
+// neighbourhood becomes stationary.
 #include "sublimit/core/detail/sparse_rows.h"
 #include "sublimit/limit/detail/limit_cache.h"
-#include "sublimit/limit/no_limit.h"
 #include "sublimit/limit/limit_status.h"
 #include "sublimit/scheme/refine.h"
 
 namespace sublimit {
 
-/// Rows over the vertices of the level.
+/// Limit rows of one place, over the vertices of the level.
 struct LimitRows {
   using Row = SparseRows::Row;
-  SparseRows rows;  ///< the position's, alone where no tangents are known, or with two of tangents and of second order
+  SparseRows rows;  ///< position; then, if tangents are known, both tangents and the rows of second order
   LimitMasks::Plane plane = LimitMasks::Plane::yes;
-  Rule rule = Rule::smooth;  ///< once all finite sharpness is gone
-  Index faces = 0;           ///< around the place on its side, once it is alone, or repeats itself
+  Rule rule = Rule::smooth;  ///< rule of the place after finite sharpness has decayed
+  Index faces = 0;           ///< faces around the place on its side, once it is isolated or stationary
   /// Status of the place on this side, for generic control points; holes are not considered.
   LimitStatus status = LimitStatus::regular;
 
@@ -30,8 +29,9 @@ struct LimitRows {
   Row second_order(size_t k) const { return rows[3 + k]; }
 };
 
-/// @param centres  of vertices those of one side, as `vertex_sides` has them
-/// @throws NoLimit  naming the first place that has none
+/// Returns the limit rows of places of a level.
+/// @param centres  the places; those of vertices are for one side each, as `vertex_sides` makes them
+/// @throws NoLimit  names the first place without a limit
 std::vector<LimitRows> limit_rows(const Level& level, LimitCache& cache, std::span<const Centre> centres);
 LimitRows limit_rows(const Level& level, LimitCache& cache, const Centre& centre);
 

@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Derivatives of a polynomial part, again by Bernstein coefficients: their hulls bound them, de Casteljau's steps
-// evaluate them.
+// Derivatives of a polynomial part in Bernstein form: the convex hulls of their coefficients bound them, de
+// Casteljau's algorithm evaluates them.
 #include <array>
 
 #include "sublimit/limit/detail/piece_parts.h"
 
 namespace sublimit {
 
+/// Bernstein nets of a polynomial and its derivatives.
 class NetDerivatives {
  public:
-  /// @param net    x 3, or x 4
-  /// @param order  of the derivatives wanted, 1 or 2
+  /// @param net    Bernstein coefficients, a row each; 3 columns, or 4 for rational parts
+  /// @param order  highest order of derivatives, 1 or 2
   NetDerivatives(const PolynomialBasis& basis, Points net, int order);
 
-  /// Coefficients of the derivative, du times along u and dv times along v; no rows where it is zero.
+  /// Returns the coefficients of the derivative of order du in u and dv in v; no rows if it is zero.
   const Points& net(int du, int dv) const { return nets_[number(du, dv)]; }
 
+  /// Value and derivatives at a place. Second derivatives beyond `order` and a missing fourth column are zero.
   struct Jet {
-    Eigen::Vector4d x, u, v, uu, uv, vv;  ///< second ones are zero if they were not wanted; so is a column that is not
+    Eigen::Vector4d x, u, v, uu, uv, vv;
   };
+  /// Returns value and derivatives at (u, v).
   Jet at(double u, double v) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The polynomial patches of a type, ready to be bound to points: the piece itself, or those of its descendants down to
-// some depth. What is deeper, towards extraordinary vertices, is left to `piece_rows`.
+// Polynomial patches of a type of piece, as rows over its points: the piece itself, or its descendants down to
+// some depth. Places in deeper descendants, near extraordinary vertices, are left to `piece_rows`.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,39 +13,41 @@
 
 namespace sublimit {
 
+/// Tree of the descendants of a piece with its polynomial patches as leaves.
 class PatchTree {
  public:
-  /// Largest degree whose patches are bound; the monomials of higher ones would lose digits.
+  /// Largest degree of patches in the tree: monomials of higher degrees lose digits.
   static constexpr int max_degree = 4;
 
   explicit PatchTree(const PieceType& type);
 
   struct Node {
-    int first_child = -1;                          ///< its children stand together
-    int patch = -1;                                ///< number of its patch; neither: too deep
-    const std::deque<PieceLink>* links = nullptr;  ///< to its children
-    bool in_four = false;  ///< these are the quarters of a quadrilateral, as it lies, counter-clockwise
+    int first_child = -1;                          ///< first child; children are consecutive; -1: none
+    int patch = -1;                                ///< number of its patch; -1: none (without children: too deep)
+    const std::deque<PieceLink>* links = nullptr;  ///< links to the children
+    bool in_four = false;  ///< children are the quarters of a quadrilateral, not rotated, counter-clockwise
   };
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// Where the descent of a place may begin: the deepest node, up to `cell_levels` quarterings below the root, that the
-  /// whole cell of the place is in.
+  /// Start of the descent for all places in a cell of a regular grid: the deepest node, at most `cell_levels`
+  /// quarterings below the root, that contains the cell. Saves the first steps of each descent.
   struct Cell {
-    std::int16_t node = 0, patch = -1;  ///< and its patch
-    std::int32_t size = 1;              ///< of the root, in nodes like this one: 2^depth
+    std::int16_t node = 0, patch = -1;  ///< the node, and its patch
+    std::int32_t size = 1;              ///< side of the root in sides of the node: 2^depth
   };
-  static constexpr int cell_levels = 3, cells = 1 << cell_levels;  ///< along each side
-  /// @param u, v  in [0, 1]. Cells end with their upper sides, as `PieceType::child` has it.
+  static constexpr int cell_levels = 3, cells = 1 << cell_levels;  ///< grid of `cells` x `cells`
+  /// Returns the cell of a place. A place between two cells belongs to the lower one, as in `PieceType::child`.
+  /// @param u, v  in [0, 1]
   const Cell& cell(double u, double v) const {
     const auto row = [](double x) { return std::max(0, static_cast<int>(std::ceil(cells * x)) - 1); };
     return cells_[cells * row(v) + row(u)];
   }
   int num_patches() const { return num_patches_; }
-  int num_coefficients() const { return num_coefficients_; }  ///< of a patch
+  int num_coefficients() const { return num_coefficients_; }  ///< coefficients of one patch
   int degree() const { return degree_; }
   bool total() const { return total_; }
-  bool halves() const { return halves_; }  ///< two patches each: u >= v, and u < v
-  /// Coefficients of s^i t^j, s = 2u - 1, t = 2v - 1, by i, then j, of all patches, from differences of the piece's
-  /// points; the constant ones less slot 0.
+  bool halves() const { return halves_; }  ///< true if leaves have two patches: for u >= v, and for u < v
+  /// Returns the matrix that takes differences of the piece's points, x_j - x_0, to the coefficients of s^i t^j
+  /// of all patches, s = 2u - 1, t = 2v - 1, by i, then j. Constant coefficients lack x_0.
   const RowMatrix& matrix() const { return matrix_; }
 
  private:

@@ -1,30 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What holds a piece of the limit: a polynomial lies in the hull of its Bernstein coefficients; any other piece in the
-// hull of the points that it depends on, if no weight is negative. Where some are, a place has its weights' absolute
-// sum, at most `PieceType::reach` times the points' distance from one of them.
+// Bounds of a piece of the limit. A polynomial lies in the convex hull of its Bernstein coefficients; any other
+// piece in the hull of the points that it depends on, if no weight is negative. With negative weights it can
+// leave their extent, by an estimated `PieceType::reach` times its size.
 #include <array>
 
 #include "sublimit/neighborhood/piece_types.h"
 
 namespace sublimit {
 
-/// Bernstein coefficients on the square or the triangle, by i, then j, by those of the basis.
+/// Returns the matrix that takes coefficients in a basis to Bernstein coefficients on the square or triangle,
+/// by i, then j.
 Eigen::MatrixXd bernstein_from(const PolynomialBasis& basis);
 
-/// Bernstein coefficients on the quarters of the square or triangle, by those on the whole; whatever the basis was.
+/// Matrices that take Bernstein coefficients on the square or triangle to those on its quarters. Quarter k is
+/// the one at (k % 2, k / 2); quarter 3 of a triangle is the middle one, rotated by 180 degrees.
 class BernsteinQuarters {
  public:
   BernsteinQuarters(int degree, bool total);
   const Eigen::MatrixXd& quarter(int k) const { return quarters_[size_t(k)]; }
-  /// The place in a quarter of a place in the whole; outside of [0, 1] it is in another one.
+  /// Returns the coordinates in a quarter of a place in the whole. They are outside [0, 1] if it is in another
+  /// quarter.
   static Eigen::Vector2d in_quarter(int k, bool triangle, double u, double v);
 
  private:
   std::array<Eigen::MatrixXd, 4> quarters_;
 };
 
-/// Bernstein nets of a piece: quarters as `BernsteinQuarters` makes them, and coefficients from those of the basis.
+/// Matrices for the Bernstein nets of a piece: from coefficients in its basis, and from the whole to quarters.
 class BernsteinNets : public BernsteinQuarters {
  public:
   explicit BernsteinNets(const PolynomialBasis& basis)
@@ -35,7 +38,7 @@ class BernsteinNets : public BernsteinQuarters {
   Eigen::MatrixXd from_basis_;
 };
 
-/// Points of a child of a piece.
+/// Returns the points of a child of a piece, by slot, from those of the piece.
 Points child_points(const PieceLink& link, const Points& points);
 
 }  // namespace sublimit

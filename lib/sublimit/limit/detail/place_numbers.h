@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Numbers for places of cells, equal where points are: by connectivity (`SharedPlaces`), never by position.
+// Numbers for places of cells, such that places of the same point of the surface have the same number. Decided
+// by connectivity (`SharedPlaces`), never by position.
 #include <unordered_map>
 
 #include "sublimit/limit/detail/limit_map_parts.h"
@@ -9,18 +10,20 @@
 
 namespace sublimit {
 
+/// Assigns consecutive numbers to places of cells.
 class PlaceNumbers {
  public:
-  /// @param parts  which must stay
+  /// @param parts  must outlive this
   explicit PlaceNumbers(const LimitMap::Parts& parts)
       : shared_(parts.level.topology(), parts.addresses, cell_steps, parts.scheme.is_dual()) {}
   explicit PlaceNumbers(const LimitMap::Parts&&) = delete;
 
+  /// Returns the number of a corner, a new one if it has none.
   Index add(Index address, const CellCorner& c) { return add(key(address, c)); }
-  /// A place inside of a cell that no other one has.
-  /// @param which  of the cell's own places
+  /// Returns the number of a place that is inside one cell only.
+  /// @param which  number of the place in the cell
   Index add_inside(std::int64_t cell, int which) { return add(Key{-2 - cell, which}); }
-  /// Or -1.
+  /// Returns the number of a corner, or -1 if it has none.
   Index find(Index address, const CellCorner& c) const {
     const auto at = numbers_.find(key(address, c));
     return at == numbers_.end() ? -1 : at->second;
@@ -29,7 +32,7 @@ class PlaceNumbers {
 
  private:
   struct Key {
-    std::int64_t owner, number;  // -1: a shared number; below: a cell
+    std::int64_t owner, number;  // owner: an address; -1: `number` is shared; -2 - cell: a place inside a cell
     bool operator==(const Key&) const = default;
   };
   struct Hash {

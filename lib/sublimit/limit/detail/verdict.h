@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What is known of a property, and why: a theorem, its hypotheses one by one, and what each of them rests on.
+// Verdicts on mathematical properties with their reasons: a theorem, each of its hypotheses, and the arithmetic
+// that decided it.
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,39 +9,43 @@
 
 namespace sublimit {
 
+/// A hypothesis of a theorem, with its answer.
 struct Hypothesis {
   /// Arithmetic that the answer was computed in. Exact algebraic numbers and enclosures by balls prove it;
   /// floating-point numbers do not.
   enum class By { exact, enclosure, floating };
-  std::string says;           ///< "eigenvalue 1 is simple"
-  std::optional<bool> holds;  ///< nothing: not decided
+  std::string says;           ///< the statement: "eigenvalue 1 is simple"
+  std::optional<bool> holds;  ///< nothing: undecided
   By by = By::floating;
-  std::string value = {};  ///< the numbers that decided, as text
+  std::string value = {};  ///< the numbers that decided it, as text
 };
 
+/// An answer about a property.
 struct [[nodiscard]] Verdict {
   enum class Answer {
     proved,
     disproved,
     evidence_for,
     evidence_against,
-    borderline,  ///< a Jordan case, or one that the theorem does not speak of
+    borderline,  ///< a Jordan case, or one that the theorem does not cover
     unknown,
   };
-  std::string property;  ///< a word of report_format.md: "c1", "curvature" ...
-  std::string says;      ///< what is proved or disproved, a fragment: "C^1 at the extraordinary point"
+  std::string property;  ///< name in report_format.md: "c1", "curvature" ...
+  std::string says;      ///< the statement, a fragment: "C^1 at the extraordinary point"
   Answer answer = Answer::unknown;
-  std::string theorem = {};  ///< with its source
+  std::string theorem = {};  ///< theorem with its source
   std::vector<Hypothesis> hypotheses = {};
-  std::string because = {};  ///< one sentence, for people
-  /// Further findings, each under the name that report_format.md has for it: {"curvature", "divergent"}.
+  std::string because = {};  ///< the reason in one sentence
+  /// Further findings as name (see report_format.md) and value: {"curvature", "divergent"}.
   std::vector<std::pair<std::string, std::string>> findings = {};
-  std::string witness = {};  ///< JSON for the checker; empty without one
+  std::string witness = {};  ///< witness for the checker as JSON; empty if there is none
 };
 
-/// The verdict that hypotheses allow which together are sufficient: proved if all hold without floating numbers; if one
-/// fails, disproved where each is `necessary` too (by what the failing one rests on), else unknown. Without hypotheses
-/// it is unknown.
+/// Returns the answer that follows from hypotheses which together are sufficient.
+///
+/// If all hold: `proved`, or `evidence_for` if floating-point numbers decided any of them. If one fails and
+/// each is `necessary`: `disproved`, or `evidence_against` if floating-point numbers decided. Else, and without
+/// hypotheses, `unknown`.
 Verdict::Answer answer_of(const std::vector<Hypothesis>& hypotheses, bool necessary);
 
 std::string to_string(Verdict::Answer answer);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What is said of places that are on no face, wherever they come from: arrays, files, targets.
+// Words of messages about places that are on no face, shared by arrays, files and targets.
 #include <cstdint>
 #include <string>
 
@@ -8,11 +8,12 @@
 
 namespace sublimit {
 
-/// Returns which faces places can be on, in words: "faces are 0 to 5, a quad each or a corner of another polygon".
+/// Returns a description of the faces that places can be on: "faces are 0 to 5, a quad each or a corner of
+/// another polygon".
 std::string faces_in_words(const FaceCount& faces);
 
-/// Returns why a place is on none of the faces, in words; nothing if it is on one.
-/// @param face  of any size, as files have it
+/// Returns a description of why a place is on none of the faces; empty if it is on one.
+/// @param face  face number as given, possibly outside the range of Index
 std::string why_outside(const FaceCount& faces, std::int64_t face, double u, double v);
 
 }  // namespace sublimit

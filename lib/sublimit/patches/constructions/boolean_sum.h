@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Boolean sums of curves, as nets: with functionals k along u (values, derivatives, at given parameters) and functions
-// phi_k(u) that they tell apart, and l, psi_l(v) along v,
+// Boolean sums of curves as control nets. With functionals k along u (values or derivatives at given
+// parameters), their dual functions phi_k(u), and likewise l and psi_l(v) along v,
 //
 //   S = sum_l psi_l(v) C_l(u) + sum_k phi_k(u) D_k(v) - sum_kl phi_k(u) psi_l(v) Q_kl,   Q_kl = functional k of C_l
 //
-// has all the curves C_l(u) and D_k(v), provided that functional l of D_k is Q_kl too. If all of these are splines over
-// common knots in u and in v, so is S, and its control points are the same sum of coefficients.
+// interpolates all curves C_l(u) and D_k(v), provided that functional l of D_k is Q_kl too. If all of these are
+// splines over common knots in u and in v, so is S, and its control points are the same sum of coefficients.
 // Source: Coons 1967; Gordon 1969, "Spline-blended surface interpolation through curve networks".
 #include <Eigen/Core>
 
@@ -16,14 +16,15 @@
 
 namespace sublimit {
 
-/// @tparam Row  of points, or of weights over data
+/// The terms of a boolean sum.
+/// @tparam Row  row of a point, or of weights over data
 template <class Row>
 struct BooleanSum {
   Eigen::MatrixXd phi, psi;            ///< coefficients: #points in u x #functionals, the same in v
   std::vector<std::vector<Row>> C, D;  ///< C[l][i], D[k][j]: control points of curves
   std::vector<std::vector<Row>> Q;     ///< Q[k][l]
 
-  /// Control point (i, j).
+  /// Returns control point (i, j).
   Row at(Index i, Index j) const {
     Row sum = D[0][size_t(j)] * phi(i, 0);
     for (size_t k = 1; k < D.size(); ++k)

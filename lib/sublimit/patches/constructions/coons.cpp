@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/sparse_rows.h"
 #include "sublimit/patches/constructions/boolean_sum.h"
 #include "sublimit/patches/constructions/common_space.h"

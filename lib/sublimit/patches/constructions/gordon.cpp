@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/patches/constructions/boolean_sum.h"
 #include "sublimit/patches/constructions/common_space.h"

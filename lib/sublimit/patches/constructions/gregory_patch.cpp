@@ -52,15 +52,15 @@ std::vector<Index> GregoryPatch::slots(Index face) const {
   return points;
 }
 
-LimitStatus GregoryPatch::rows(const Place& sample, int order, WeightRows& weights) const {
-  const Parameters at = net_.parameters(sample);
+LimitStatus GregoryPatch::rows(const Place& place, int order, WeightRows& weights) const {
+  const Parameters at = net_.parameters(place);
   const bool at_corner = (at.u == 0 || at.u == 1) && (at.v == 0 || at.v == 1);
   const bool unbounded = order == 2 && at_corner && blended_[size_t(at.u) + 2 * size_t(at.v)];
   WeightRows of_net;
-  const LimitStatus status = net_.rows(sample, unbounded ? 1 : order, of_net);
+  const LimitStatus status = net_.rows(place, unbounded ? 1 : order, of_net);
   weights = WeightRows::Zero(of_net.rows(), of_net.cols() + 12);
   weights.leftCols(of_net.cols()) = of_net;
-  const auto [length_u, length_v] = net_.lengths(sample.face);
+  const auto [length_u, length_v] = net_.lengths(place.face);
   const double units[6] = {1, length_u, length_v, length_u * length_u, length_u * length_v, length_v * length_v};
   for (Eigen::Index corner = 0; corner < 4; ++corner) {
     if (!blended_[size_t(corner)]) continue;

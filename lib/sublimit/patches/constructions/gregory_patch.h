@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Gregory's patches: general Coons patches (coons.h) whose two fields ask for different twists at a corner. There the
-// twist is blended by place,
+// Gregory patches: general Coons patches (coons.h) whose two fields require different twists at a corner. There
+// the twist depends on the place,
 //
 //   t(u,v) = (u xu'(0) + v xv'(0)) / (u + v)        at (0,0); u -> 1 - u, v -> 1 - v at the other corners
 //
-// so that both boundary curves and both cross derivatives are met; S_uv has no limit at the corner. Rows are over the
-// net of the patch without twists and, for each corner, its point c and c + xu', c + xv': rational in u and v, linear
-// in the data, no spline. Source: Gregory 1974, "Smooth interpolation without twist constraints".
+// so that boundary curves and cross derivatives are interpolated; S_uv has no limit at the corner. Rows are
+// over the net of the patch without twists and, for each corner with point c, over c + xu' and c + xv'. They
+// are rational in u and v, and linear in the data; the surface is no spline. Source: Gregory 1974, "Smooth
+// interpolation without twist constraints".
 #include <array>
 
 #include "sublimit/patches/constructions/coons.h"
@@ -15,19 +16,21 @@
 
 namespace sublimit {
 
+/// A Gregory patch.
 class GregoryPatch : public Patch {
  public:
-  /// @param net      of the general patch with twists that are right at the corners not blended, 0 at the others
-  /// @param blended  by coons_corners
+  /// @param net      general Coons patch with the right twists at corners that are not blended, and 0 at the
+  ///                 others
+  /// @param blended  whether the twist is blended, for each of coons_corners
   GregoryPatch(SplineSurface net, const std::array<bool, 4>& blended);
 
   const std::array<bool, 4>& blended() const { return blended_; }
 
-  /// Those of the net, then c + xu', c + xv' of each corner.
+  /// Number of points: those of the net, then c + xu', c + xv' of each corner.
   Index num_points() const override { return net_.num_points() + 8; }
   FaceCount faces() const override { return net_.faces(); }
   std::vector<Index> slots(Index face) const override;
-  LimitStatus rows(const Place& sample, int order, WeightRows& weights) const override;
+  LimitStatus rows(const Place& place, int order, WeightRows& weights) const override;
   std::string type(Index face) const override;
   Place place(const Parameters& parameters) const override { return net_.place(parameters); }
   Parameters parameters(const Place& place) const override { return net_.parameters(place); }
@@ -38,13 +41,15 @@ class GregoryPatch : public Patch {
   std::array<bool, 4> blended_;
 };
 
+/// A Gregory patch with its control columns.
 struct GregoryNet {
   std::shared_ptr<const GregoryPatch> patch;
   Points columns;
 };
 
-/// @param tolerance  as general_coons; twists that differ by less are one
-/// @throws InvalidParameter, InvalidMesh  as general_coons but for twists
+/// Returns the Gregory patch of curves and fields.
+/// @param tolerance  see general_coons; twists that differ by less count as equal
+/// @throws InvalidParameter, InvalidMesh  see general_coons, except for twists
 GregoryNet gregory_patch(const CoonsBoundary& curves, const CoonsFields& fields, double tolerance = -1);
 
 }  // namespace sublimit

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/patches/constructions/hermite.h"
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/constructions/power_coefficients.h"
 
 namespace sublimit {

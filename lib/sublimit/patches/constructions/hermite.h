@@ -10,19 +10,21 @@
 
 namespace sublimit {
 
+/// Vectors given at each corner.
 enum class HermiteVectors {
-  twelve,   ///< corners and tangents; twists are 0
-  sixteen,  ///< twists are given
-  adini,    ///< twists are those of the bilinear Coons patch of the four boundary curves
+  twelve,   ///< points and tangents; twists are 0
+  sixteen,  ///< points, tangents and twists
+  adini,    ///< points and tangents; twists are those of the bilinear Coons patch of the four boundary curves
 };
-/// Names of the kinds of vectors in files, by HermiteVectors.
-inline constexpr const char* hermite_vectors_words[] = {"12", "16", "adini"};
+/// Names in files, by HermiteVectors.
+inline constexpr const char* hermite_vectors_names[] = {"12", "16", "adini"};
 
-/// The net over p, p_u, p_v, and with sixteen vectors p_uv, four rows each, at (0,0), (1,0), (0,1), (1,1). Weights of p
-/// sum to 1; the others are vectors.
+/// Returns the builder of the net over p, p_u, p_v and, with sixteen vectors, p_uv: four rows each, at (0,0),
+/// (1,0), (0,1), (1,1). Weights of p sum to 1; the other data are vectors.
 NetBuilder hermite_builder(HermiteVectors vectors);
 
-/// @param data  12 x 3, or 16 x 3
+/// Returns the patch of given data.
+/// @param data  12 x 3, or 16 x 3 with sixteen vectors
 /// @throws InvalidParameter  another number of rows
 SplineNet hermite_patch(HermiteVectors vectors, const Points& data);
 

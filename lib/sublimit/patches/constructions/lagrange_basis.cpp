@@ -6,9 +6,9 @@
 #include <numeric>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
-#include "sublimit/patches/knot_errors.h"
+#include "sublimit/patches/knots.h"
 
 namespace sublimit {
 

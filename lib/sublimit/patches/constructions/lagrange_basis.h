@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Lagrange's polynomials in barycentric form: l_i(x) = (w_i / (x - x_i)) / sum_j w_j / (x - x_j), w_i = 1 / prod (x_i -
-// x_j). Derivatives are values of polynomials too: rows of the r-th are l(x) D^r, D the derivatives at the nodes.
+// Lagrange polynomials in barycentric form: l_i(x) = (w_i / (x - x_i)) / sum_j w_j / (x - x_j), w_i = 1 / prod
+// (x_i - x_j). Rows of the r-th derivative are l(x) D^r, where D is the matrix of derivatives at the nodes.
 // Source: Berrut, Trefethen 2004, "Barycentric Lagrange interpolation".
 #include <span>
 #include <vector>
@@ -10,30 +10,32 @@
 
 namespace sublimit {
 
-/// Degrees above this one on equal distances: small errors of the points become large between them (Lebesgue constants
-/// 29 at 10, 11000 at 20).
+/// Degree above which interpolation at equidistant nodes is ill-conditioned: errors of the points are amplified
+/// between them (Lebesgue constant 29 at degree 10, 11000 at degree 20).
 inline constexpr int wild_lagrange_degree = 10;
 
+/// The Lagrange basis of some nodes.
 class LagrangeBasis {
  public:
   /// @param nodes  in any order; the domain is from the least to the greatest
-  /// @throws InvalidParameter  fewer than 2, not finite, equal ones, by their numbers, or so uneven that weights leave
-  ///                           the range of numbers
+  /// @throws InvalidParameter  fewer than 2 nodes, nodes that are not finite or equal (names their indices), or
+  ///                           so uneven that weights overflow
   explicit LagrangeBasis(std::vector<double> nodes);
 
   Index size() const { return static_cast<Index>(nodes_.size()); }
   double begin() const { return begin_; }
   double end() const { return begin_ + length_; }
   double length() const { return length_; }
-  /// Nodes from 0 to 1.
+  /// Returns the nodes scaled to [0, 1].
   std::span<const double> nodes() const { return nodes_; }
 
-  /// Position and derivatives per unit of u; at a node exactly its point.
+  /// Returns the rows of position and derivatives per unit of u. At a node the position is exactly its point.
   /// @param u  0 to 1
   WeightRows rows(double u, int order) const;
-  /// u of a parameter; a node's is that of `nodes`.
+  /// Returns u of a parameter; for a node exactly the value in `nodes`.
   double unit(double t) const { return (t - begin_) / length_; }
-  /// @throws InvalidParameter  outside the domain
+  /// Throws unless a parameter is in the domain.
+  /// @throws InvalidParameter  it is outside
   void check_inside(double t) const;
 
  private:

@@ -19,10 +19,10 @@ CurvePlace LagrangeCurve::place(double t, KnotSide) const {
   return {.segment = 0, .t = std::clamp(basis_.unit(t), 0., 1.)};  // the last node may be one rounding beyond
 }
 
-CurveStencil LagrangeCurve::stencil(const CurvePlace& sample, int order) const {
+CurveStencil LagrangeCurve::stencil(const CurvePlace& place, int order) const {
   check_order(order);
-  check_sample(sample, 1);
-  CurveStencil result{.status = LimitStatus::regular, .unknowns = {}, .weights = basis_.rows(sample.t, order)};
+  check_sample(place, 1);
+  CurveStencil result{.status = LimitStatus::regular, .unknowns = {}, .weights = basis_.rows(place.t, order)};
   result.unknowns.resize(static_cast<size_t>(num_points()));
   std::iota(result.unknowns.begin(), result.unknowns.end(), 0);
   return result;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The polynomial curve through points at nodes (lagrange_basis.h): one segment, its rows over all points.
+// Polynomial curves through points at nodes (lagrange_basis.h): one segment, whose rows are over all points.
 #include <optional>
 
 #include "sublimit/patches/constructions/lagrange_basis.h"
@@ -9,6 +9,7 @@
 
 namespace sublimit {
 
+/// A curve in a Lagrange basis.
 class LagrangeCurve : public LinearCurve {
  public:
   explicit LagrangeCurve(LagrangeBasis basis) : basis_(std::move(basis)) {}
@@ -18,7 +19,7 @@ class LagrangeCurve : public LinearCurve {
   Index num_points() const override { return basis_.size(); }
   CurvePlace place(double t, KnotSide side = KnotSide::right) const override;
   double length(Index) const override { return basis_.length(); }
-  CurveStencil stencil(const CurvePlace& sample, int order = 0) const override;
+  CurveStencil stencil(const CurvePlace& place, int order = 0) const override;
 
  private:
   LagrangeBasis basis_;
@@ -27,8 +28,8 @@ class LagrangeCurve : public LinearCurve {
 /// Largest error of conversions to Bezier form, relative to the size of the points.
 inline constexpr double lagrange_net_accuracy = 1e-12;
 
-/// The polynomials of a basis in Bezier form: Bezier points x nodes. Nothing where they lose more than
-/// `lagrange_net_accuracy`, which is measured between the nodes, or the degree is above max_degree.
+/// Returns the matrix from points at the nodes to Bezier points. Nothing if its error, measured between the
+/// nodes, exceeds `lagrange_net_accuracy`, or the degree exceeds max_degree.
 std::optional<Points> lagrange_to_bezier(const LagrangeBasis& basis);
 /// Returns the polynomial as a Bezier curve over the nodes' domain, if its basis has that form.
 std::optional<CurveNet> lagrange_net(const LagrangeBasis& basis, const Points& points);

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/constructions/lagrange_curve.h"
 #include "sublimit/patches/constructions/tensor_rows.h"
 
@@ -24,8 +24,8 @@ std::vector<Index> LagrangeSurface::slots(Index) const {
   return points;
 }
 
-LimitStatus LagrangeSurface::rows(const Place& sample, int order, WeightRows& weights) const {
-  tensor_rows(u_.rows(sample.u, order), v_.rows(sample.v, order), order, weights);
+LimitStatus LagrangeSurface::rows(const Place& place, int order, WeightRows& weights) const {
+  tensor_rows(u_.rows(place.u, order), v_.rows(place.v, order), order, weights);
   return LimitStatus::regular;
 }
 

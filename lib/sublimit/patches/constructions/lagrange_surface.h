@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The polynomial surface through a grid of points (lagrange_basis.h): one face, its rows over all points.
+// Polynomial surfaces through a grid of points (lagrange_basis.h): one face, whose rows are over all points.
 #include "sublimit/patches/constructions/lagrange_basis.h"
 #include "sublimit/patches/patch.h"
 
 namespace sublimit {
 
+/// A tensor-product surface of two Lagrange bases.
 class LagrangeSurface : public Patch {
  public:
   /// Points are a grid over the nodes, u fastest.
@@ -15,14 +16,14 @@ class LagrangeSurface : public Patch {
   Index num_points() const override { return u_.size() * v_.size(); }
   FaceCount faces() const override { return {1, false}; }
   std::vector<Index> slots(Index face) const override;
-  LimitStatus rows(const Place& sample, int order, WeightRows& weights) const override;
+  LimitStatus rows(const Place& place, int order, WeightRows& weights) const override;
   std::string type(Index face) const override;
 
-  /// Parameters of the nodes.
+  /// Parameters are those of the nodes.
   Place place(const Parameters& parameters) const override;
   Parameters parameters(const Place& place) const override;
   Lengths lengths(Index) const override { return {u_.length(), v_.length()}; }
-  /// If `lagrange_to_bezier` has both directions.
+  /// Returns the Bezier rows if `lagrange_to_bezier` converts both directions.
   std::optional<BezierRows> bezier(Index face) const override;
 
  private:

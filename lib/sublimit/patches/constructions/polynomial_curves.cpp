@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/constructions/power_coefficients.h"
 
 namespace sublimit {

@@ -12,26 +12,29 @@
 
 namespace sublimit {
 
-/// Exact at multiples of 30 and 90 degrees where the value is 0, 1/2 or 1.
+/// Cosine and sine of an angle in degrees, exact if the value is 0, +-1/2 or +-1.
 double cos_degrees(double angle);
 double sin_degrees(double angle);
 
-/// A rigid map; the axis is the image of the z axis, the turn from that to its direction the least one.
+/// An axis, given as the image of the z axis under a rigid motion, whose rotation is the smallest possible.
 struct Axis {
   Eigen::RowVector3d point{0, 0, 0}, direction{0, 0, 1};
 
+  /// Returns the rotation.
   /// @throws InvalidParameter  a direction of length 0
   Eigen::Matrix3d turn() const;
 };
 
+/// Options of `revolution`.
 struct RevolutionOptions {
   double start_degrees = 0;
-  double sweep_degrees = 360;  ///< to 360 or -360; negative ones turn the normal
-  int arcs = 0;                ///< 0: as few as are 90 degrees at most
+  double sweep_degrees = 360;  ///< -360 to 360, not 0; negative angles reverse the normal
+  int arcs = 0;                ///< number of arcs; 0: as few as possible of at most 90 degrees
   Axis axis{};
 };
 
-/// @param profile  in the plane of x and z: columns (x, z), or homogeneous (w x, w z, w)
+/// Returns the surface of revolution of a profile.
+/// @param profile  curve in the xz plane: columns (x, z), or homogeneous (w x, w z, w)
 /// @throws InvalidParameter  a sweep of 0 or of more than 360 degrees, arcs of 180 degrees or more
 SplineNet revolution(const CurveNet& profile, const RevolutionOptions& options = {});
 

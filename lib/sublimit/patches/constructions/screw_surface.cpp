@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/constructions/tensor_rows.h"
 #include "sublimit/patches/detail/spline_rows.h"
 
@@ -78,10 +78,10 @@ double ScrewSurface::angle(Index arc, double u) const {
   return from_ + (to_ - from_) * ((arc + u) / arcs_);
 }
 
-LimitStatus ScrewSurface::rows(const Place& sample, int order, WeightRows& weights) const {
-  const Index arc = sample.face % arcs_;
-  const KnotPlace<double> in_v{sample.face / arcs_, sample.v};
-  tensor_rows(angle_rows(angle(arc, sample.u), (to_ - from_) / arcs_, order), function_rows(v_, in_v, order), order,
+LimitStatus ScrewSurface::rows(const Place& place, int order, WeightRows& weights) const {
+  const Index arc = place.face % arcs_;
+  const KnotPlace<double> in_v{place.face / arcs_, place.v};
+  tensor_rows(angle_rows(angle(arc, place.u), (to_ - from_) / arcs_, order), function_rows(v_, in_v, order), order,
               weights);
   return sides_differ(v_, in_v, order) ? LimitStatus::crease : LimitStatus::regular;
 }

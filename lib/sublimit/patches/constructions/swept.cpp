@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/constructions/common_space.h"
 #include "sublimit/patches/constructions/interpolation.h"
 

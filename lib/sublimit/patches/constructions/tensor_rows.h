@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What patches that are made of rows in u and rows in v share: outer products of these, and types as bytes.
+// Helpers of tensor-product patches: outer products of rows in u and rows in v, and types as bytes.
 #include <cstring>
 #include <span>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace sublimit {
 
-/// Numbers and their count.
+/// Appends the count of some numbers, and the numbers, as bytes.
 inline void append_bytes(std::string& bytes, std::span<const double> values) {
   const auto count = static_cast<double>(values.size());
   char item[sizeof(double)];
@@ -25,7 +25,7 @@ inline void append_bytes(std::string& bytes, std::span<const double> values) {
 /// Orders in u and v of position, du, dv, duu, duv, dvv.
 inline constexpr std::pair<int, int> derivative_orders[] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
 
-/// Outer products of rows, u fastest: position, then derivatives up to the order.
+/// Computes outer products of rows, u fastest: position, then derivatives up to `order`.
 inline void tensor_rows(const WeightRows& u, const WeightRows& v, int order, WeightRows& weights) {
   weights.resize(order == 0 ? 1 : order == 1 ? 3 : 6, u.cols() * v.cols());
   for (Eigen::Index r = 0; r < weights.rows(); ++r)

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/sparse_rows.h"
 #include "sublimit/limit/detail/triangle_blossom.h"
 
@@ -52,9 +52,9 @@ std::vector<Index> TrianglePatch::slots(Index face) const {
   return points;
 }
 
-LimitStatus TrianglePatch::rows(const Place& sample, int order, WeightRows& weights) const {
+LimitStatus TrianglePatch::rows(const Place& place, int order, WeightRows& weights) const {
   // Barycentric coordinates that are 0 stay so: an edge is over its own control points.
-  const Barycentric at{std::max(0.0, (1 - sample.u) - sample.v), sample.u, sample.v};
+  const Barycentric at{std::max(0.0, (1 - place.u) - place.v), place.u, place.v};
   constexpr std::array<std::array<const Barycentric*, 2>, 6> directions{{{nullptr, nullptr},
                                                                          {&along_u, nullptr},
                                                                          {&along_v, nullptr},

@@ -11,10 +11,11 @@
 
 namespace sublimit {
 
+/// A triangular Bezier patch, or one of its refinements.
 class TrianglePatch : public Patch {
  public:
-  /// @param level  how often quartered
-  /// @throws InvalidParameter  a degree not 1 to max_degree, a negative level
+  /// @param level  number of times that it has been quartered
+  /// @throws InvalidParameter  a degree that is not 1 to max_degree, a negative level
   /// @throws ResourceError     more control points or faces than 32-bit indices count
   explicit TrianglePatch(int degree, int level = 0);
 
@@ -24,25 +25,26 @@ class TrianglePatch : public Patch {
   FaceCount faces() const override { return {num_faces_, true}; }
 
   std::vector<Index> slots(Index face) const override;
-  LimitStatus rows(const Place& sample, int order, WeightRows& weights) const override;
+  LimitStatus rows(const Place& place, int order, WeightRows& weights) const override;
   std::string type(Index face) const override;
 
-  /// Parameters (u,v) of the whole patch; on edges between quarters the first of them, unless a side is asked for.
+  /// Returns the place of parameters (u,v) of the whole patch. On edges between quarters it is in the first of
+  /// them, unless a side is given.
   Place place(const Parameters& parameters) const override;
   Parameters parameters(const Place& place) const override;
-  /// Negative for quarters that are upside down.
+  /// Lengths are negative for quarters that are rotated by 180 degrees.
   Lengths lengths(Index face) const override;
   std::optional<BezierRows> bezier(Index face) const override;
   Refined refined() const override;
 
-  /// How many points a lattice of so many steps a side has.
+  /// Returns the number of points of a triangular lattice with `side` steps per side.
   static Index lattice_size(Index side) { return (side + 1) * (side + 2) / 2; }
 
  private:
   /// A face in the lattice: its corner V0, and the step of one control point towards V1 and V2.
   struct Corner {
-    Index j = 0, k = 0;  ///< in steps of the lattice
-    Index step = 1;      ///< or -1, upside down
+    Index j = 0, k = 0;  ///< position of V0 in the lattice
+    Index step = 1;      ///< 1, or -1 if rotated by 180 degrees
   };
   Corner corner(Index face) const;
   Index point(Index j, Index k) const { return k * (side_ + 1) - k * (k - 1) / 2 + j; }

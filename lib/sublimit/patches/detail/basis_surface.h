@@ -7,6 +7,7 @@
 
 namespace sublimit {
 
+/// A tensor-product surface of two SegmentBasis.
 class BasisSurface : public Patch {
  public:
   /// @throws ResourceError  more control points than 32-bit indices count
@@ -15,7 +16,7 @@ class BasisSurface : public Patch {
   Index num_points() const override { return u_.num_points() * v_.num_points(); }
   FaceCount faces() const override { return {u_.num_faces() * v_.num_faces(), false}; }
   std::vector<Index> slots(Index face) const override;
-  LimitStatus rows(const Place& sample, int order, WeightRows& weights) const override;
+  LimitStatus rows(const Place& place, int order, WeightRows& weights) const override;
   std::string type(Index face) const override;
   std::string ends(Index face) const override;
   bool is_affine() const override { return u_.is_affine() && v_.is_affine(); }
@@ -23,7 +24,8 @@ class BasisSurface : public Patch {
   Parameters parameters(const Place& place) const override;
   Lengths lengths(Index face) const override;
   std::optional<BezierRows> bezier(Index face) const override;
-  /// The net of all its Bezier pieces, which share their ends where they do not jump: not yet halved.
+  /// Returns the net of all Bezier pieces of the surface, as a B-spline of the same surface (not halved).
+  /// Neighbouring pieces share control points unless the surface jumps between them.
   Refined refined() const override;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Patches bound to their control points, for many samples: every face of a B-spline surface as a Bezier piece in space,
-// made once. What pieces do not know, poles and the normals of collapsed sides, the patches are asked for.
+// Evaluation of many places of patches with given control points: every face of a B-spline surface is converted
+// to a Bezier piece in space once. Poles and normals at collapsed sides are left to the patches.
 #include <array>
 #include <memory>
 #include <vector>
@@ -12,33 +12,35 @@
 
 namespace sublimit {
 
+/// Bezier pieces of B-spline patches with control points.
 class BezierPieces : public BoundSource {
  public:
-  /// @param patches  which must stay; all of them B-splines
-  /// @param columns  of the set
+  /// @param patches  must outlive this; all of them B-splines
+  /// @param columns  control columns of the set
   /// @throws InvalidParameter  columns of another size
   BezierPieces(const PatchSet& patches, const Points& columns);
   BezierPieces(const PatchSet&&, const Points&) = delete;
 
   void evaluate(std::span<const Place> samples, int order, bool normals, LimitSamples& out) const override;
 
-  /// Numbers that pieces take, of 8 bytes; 0 if a patch is no B-spline.
+  /// Returns the memory of the pieces in numbers of 8 bytes; 0 if a patch is no B-spline.
   static double num_numbers(const PatchSet& patches);
 
  private:
   struct Piece {
     size_t first = 0;  ///< control columns, 4 numbers each, u fastest
     std::int8_t p = 0, q = 0;
-    bool is_positive = true;            ///< all weights
-    std::array<std::int8_t, 4> smooth;  ///< k of C^k at u = 0, u = 1, v = 0, v = 1; 3 where there is no other side
-    std::array<double, 3> origin;       ///< columns are seen from there
-    double small = 0;                   ///< derivatives of this length may be rounding alone: the patch knows
+    bool is_positive = true;            ///< true if all weights are positive
+    std::array<std::int8_t, 4> smooth;  ///< k of C^k at u = 0, u = 1, v = 0, v = 1; 3 at ends of the patch
+    std::array<double, 3> origin;       ///< point that control columns are relative to
+    double small = 0;                   ///< length up to which derivatives may be rounding: left to the patch
   };
-  /// @return  false if the patch has to be asked
+  /// Evaluates a place into a row of `out`.
+  /// @return  false if the patch must evaluate this place
   template <int Degree, int Order>
-  bool evaluate(const Piece& piece, const Place& sample, bool normals, LimitSamples& out, Eigen::Index row) const;
+  bool evaluate(const Piece& piece, const Place& place, bool normals, LimitSamples& out, Eigen::Index row) const;
   template <int Order>
-  bool evaluate(const Place& sample, bool normals, LimitSamples& out, Eigen::Index row) const;
+  bool evaluate(const Place& place, bool normals, LimitSamples& out, Eigen::Index row) const;
 
   const PatchSet& patches_;
   Points columns_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The blossom (polar form) of a polynomial piece of a B-spline: the one primitive that every row of this room is made
-// of. f(x_1, .., x_p) is symmetric, affine in each argument, and f(t, .., t) is the curve; homogenised, an argument is
-// a pair (x, w): (t, 1) is a point, (d, 0) a direction, and the r-th derivative along d is
+// The blossom (polar form) of a polynomial piece of a B-spline, from which all rows of patches are computed.
+// f(x_1, .., x_p) is symmetric, affine in each argument, and f(t, .., t) is the curve; homogenised, an argument
+// is a pair (x, w): (t, 1) is a point, (d, 0) a direction, and the r-th derivative along d is
 //
 //   p!/(p-r)! f((d,0)^r, (t,1)^(p-r))
 //
@@ -17,14 +17,14 @@
 
 namespace sublimit {
 
-/// An argument of a blossom, by its distances to knots, so that none of them is a difference of rounded numbers.
+/// An argument of a blossom, stored such that its distances to knots are computed without cancellation.
 template <class T>
 class BlossomArgument {
  public:
   BlossomArgument() = default;
   static BlossomArgument point(const T& t) { return {t, t, T(0), T(0), false}; }
   static BlossomArgument direction(const T& d) { return {T(0), T(0), d, T(-d), true}; }
-  /// The point (1 - u) a + u b; distances to knots that are not between a and b are sums of positive terms.
+  /// Returns the point (1 - u) a + u b. Its distances to knots outside a .. b are sums of positive terms.
   static BlossomArgument between(const T& a, const T& b, const T& u) {
     const T length = b - a;
     return {a, b, T(u * length), T((T(1) - u) * length), false};
@@ -43,7 +43,7 @@ class BlossomArgument {
   bool is_direction_ = false;
 };
 
-/// Knots around a span: those of step q on its left, r = 0 .. q-1 from far to near, and on its right, near to far.
+/// Knots around a span for step q: left(q, r) from far to near and right(r) from near to far, r = 0 .. q-1.
 template <class T>
 struct SpanKnots {
   std::span<const T> knots;
@@ -52,7 +52,7 @@ struct SpanKnots {
   const T& right(Index r) const { return knots[k + 1 + r]; }
 };
 
-/// A Bezier piece over [0, 1]: all knots on its left are 0, on its right 1. Arguments are those of UnitArgument.
+/// Knots of a Bezier piece over [0, 1]: 0 on the left, 1 on the right. Used with arguments UnitArgument.
 template <class T>
 struct UnitSpan {
   static constexpr T left(Index, Index) { return T(0); }
@@ -67,8 +67,8 @@ struct UnitArgument {
   const T& before(const T&) const { return below; }
 };
 
-/// One argument more, in place: step q of all rows of this room.
-/// @param weights  of q - 1 arguments; room for one more
+/// Adds argument q to the weights of a blossom, in place.
+/// @param weights  the q weights after q - 1 arguments, with room for one more
 template <class Span, class Argument, class T>
 inline void blossom_step(const Span& span, Index q, const Argument& x, T* weights) {
   T carried(0);
@@ -82,13 +82,14 @@ inline void blossom_step(const Span& span, Index q, const Argument& x, T* weight
   weights[q] = carried;
 }
 
-/// Weights of the blossom of the piece in span k over the control points k-p .. k, p the number of arguments.
+/// Computes the weights of the blossom of the piece in span k over the control points k-p .. k, where p is the
+/// number of arguments.
 ///
 /// Inside the span the weights of a point (all arguments equal) are sums of positive terms. Derivatives stay near the
 /// rounding of their terms if directions come last.
 /// @param knots      t_0 <= t_1 <= ..; t_k < t_{k+1}, and k-p+1 .. k+p exist
 /// @param arguments  in the order of the steps; any order gives the same up to rounding
-/// @param weights    p+1 of them
+/// @param weights    the result, p+1 numbers
 template <class T>
 void blossom(std::span<const T> knots, Index k, std::span<const BlossomArgument<T>> arguments, std::span<T> weights) {
   const Index degree = static_cast<Index>(arguments.size());
@@ -97,9 +98,10 @@ void blossom(std::span<const T> knots, Index k, std::span<const BlossomArgument<
   for (Index q = 1; q <= degree; ++q) blossom_step(SpanKnots<T>{knots, k}, q, arguments[q - 1], weights.data());
 }
 
-/// Puts arguments that are knots, or points between them, into the order in which weights come out without
-/// cancellation: those up to the span from the right to the left, then those after it. If every knot of the piece
-/// between two arguments is an argument too, as in any refinement, all terms are positive.
+/// Orders arguments that are knots, or points between knots, such that weights are computed without
+/// cancellation: first those up to the start of the span in descending order, then those after it in ascending
+/// order. If every knot of the piece between two arguments is an argument too, as in any refinement, all terms
+/// are positive.
 /// @param points  ascending; reordered
 template <class T>
 void order_for_span(std::span<T> points, const T& span_begin) {

@@ -101,9 +101,9 @@ Vector3d turning_normal(const std::vector<Vector3d>& vectors, bool is_closed) {
 }  // namespace
 
 Vector3d collapsed_side_normal(const SplineSurface& surface, const Points& columns, Coordinates coordinates,
-                               const Place& sample) {
+                               const Place& place) {
   const Knots<double>&u = surface.u(), &v = surface.v();
-  const KnotPlace<double> in_u{sample.face % u.num_faces(), sample.u}, in_v{sample.face / u.num_faces(), sample.v};
+  const KnotPlace<double> in_u{place.face % u.num_faces(), place.u}, in_v{place.face / u.num_faces(), place.v};
   const bool rational = coordinates == Coordinates::homogeneous;
   Vector3d normal = Vector3d::Zero();
   int sides = 0;
@@ -114,10 +114,10 @@ Vector3d collapsed_side_normal(const SplineSurface& surface, const Points& colum
   };
   const Direction along_u{u, in_u, 1}, along_v{v, in_v, u.num_points()};
   // du x dv = (v - v_0) T' x T for vectors T along u, and (u - u_0) T x T' for those along v.
-  if (sample.v == 0 || sample.v == 1)
-    add(vectors_at_point(columns, rational, along_v, along_u), u.is_closed(), sample.v == 0 ? -1 : 1);
-  if (sample.u == 0 || sample.u == 1)
-    add(vectors_at_point(columns, rational, along_u, along_v), v.is_closed(), sample.u == 0 ? 1 : -1);
+  if (place.v == 0 || place.v == 1)
+    add(vectors_at_point(columns, rational, along_v, along_u), u.is_closed(), place.v == 0 ? -1 : 1);
+  if (place.u == 0 || place.u == 1)
+    add(vectors_at_point(columns, rational, along_u, along_v), v.is_closed(), place.u == 0 ? 1 : -1);
   return sides == 1 ? normal : Vector3d::Zero();
 }
 

@@ -9,9 +9,9 @@
 
 namespace sublimit {
 
-/// @param sample  on the side
-/// @return  unit length, or zero where no side of the place is collapsed, or there is no plane
+/// Returns the normal at a place on a collapsed side.
+/// @return  unit length; zero if the place is on no collapsed side, or there is no tangent plane
 Eigen::Vector3d collapsed_side_normal(const SplineSurface& surface, const Points& columns, Coordinates coordinates,
-                                      const Place& sample);
+                                      const Place& place);
 
 }  // namespace sublimit

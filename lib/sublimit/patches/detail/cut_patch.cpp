@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/patches/detail/blossom.h"
 #include "sublimit/patches/detail/spline_rows.h"
@@ -57,9 +57,9 @@ Place CutPatch::inner(const Place& s) const {
   return {.face = part.face, .u = between(part.u0, part.u1, s.u), .v = between(part.v0, part.v1, s.v)};
 }
 
-LimitStatus CutPatch::rows(const Place& sample, int order, WeightRows& weights) const {
-  const LimitStatus status = patch_->rows(inner(sample), order, weights);
-  const Part& part = parts_[size_t(sample.face)];
+LimitStatus CutPatch::rows(const Place& place, int order, WeightRows& weights) const {
+  const LimitStatus status = patch_->rows(inner(place), order, weights);
+  const Part& part = parts_[size_t(place.face)];
   const double u = part.u1 - part.u0, v = part.v1 - part.v0;
   const double scales[] = {1, u, v, u * u, u * v, v * v};
   for (Eigen::Index r = 1; r < weights.rows(); ++r) weights.row(r) *= scales[r];

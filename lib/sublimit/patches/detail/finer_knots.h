@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Knots for other nets of the same curve, in the same domain: what `refinement_rows` and `elevation_rows` go to.
+// Knots for other control nets of the same curve over the same domain; `refinement_rows` and `elevation_rows`
+// compute the nets.
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -10,8 +11,9 @@
 
 namespace sublimit {
 
-/// Open knots with a given domain: of more knots those that matter, `degree` of them on either side of it.
-/// @param all  ascending; they have both ends of the domain, and enough others
+/// Returns open knots with a given domain, cut out of a longer list: those in the domain and `degree` on either
+/// side.
+/// @param all  ascending; contains both ends of the domain and at least `degree` knots beyond each
 template <class T>
 Knots<T> cut_to_domain(int degree, const std::vector<T>& all, const T& begin, const T& end) {
   // One of several equal knots at an end belongs to the domain; the others would leave control points without
@@ -43,8 +45,9 @@ Knots<T> halved_knots(const Knots<T>& knots) {
   return cut_to_domain(knots.degree(), fine, knots.begin(), knots.end());
 }
 
-/// Returns knots with one more knot, inserted several times.
-/// @throws InvalidParameter  not inside the domain (the start of a closed spline is inside), too often
+/// Returns knots with the knot `t` inserted `times` times.
+/// @throws InvalidParameter  t is not inside the domain (the start of a closed spline is), or becomes too
+///                           frequent
 template <class T>
 Knots<T> with_knot(const Knots<T>& knots, const T& t, int times = 1) {
   const bool inside = knots.begin() < t && t < knots.end();
@@ -57,9 +60,9 @@ Knots<T> with_knot(const Knots<T>& knots, const T& t, int times = 1) {
   return cut_to_domain(knots.degree(), fine, knots.begin(), knots.end());
 }
 
-/// Returns knots with the same domain and other knots outside of it, degree many on each side; a closed spline is
-/// opened. Weights over the old control points can be negative and large if the new knots are not among the old ones.
-/// @param before, after  ascending
+/// Returns knots with the same domain and other knots outside of it; a closed spline is opened. Weights over
+/// the old control points can be negative and large if the new knots are not among the old ones.
+/// @param before, after  knots outside on each side, ascending, `degree` many
 template <class T>
 Knots<T> with_end_knots(const Knots<T>& knots, std::vector<T> before, const std::vector<T>& after) {
   const auto first = std::upper_bound(knots.all().begin(), knots.all().end(), knots.begin()) - 1;
@@ -77,8 +80,8 @@ Knots<T> clamped_knots(const Knots<T>& knots) {
   return with_end_knots(knots, std::vector<T>(p, knots.begin()), std::vector<T>(p, knots.end()));
 }
 
-/// Ends interpolated and every inner knot degree times, at least: the net of all Bezier pieces, neighbours sharing
-/// their ends; a closed spline is opened.
+/// Returns the knots of the net of all Bezier pieces: ends are interpolated and inner knots have at least
+/// multiplicity `degree`, so that neighbours share control points. A closed spline is opened.
 template <class T>
 Knots<T> bezier_pieces(const Knots<T>& knots) {
   const Knots<T> open = clamped_knots(knots);
@@ -97,8 +100,8 @@ Knots<T> bezier_pieces(const Knots<T>& knots) {
   return cut_to_domain(p, all, open.begin(), open.end());
 }
 
-/// Returns the knots of one degree more, every knot once more.
-/// @throws InvalidParameter  beyond the highest degree
+/// Returns the knots of the spline written in one degree more: the multiplicity of every knot increases by one.
+/// @throws InvalidParameter  the new degree exceeds `max_degree`
 template <class T>
 Knots<T> elevated_knots(const Knots<T>& knots) {
   const std::span<const T> coarse = knots.is_closed() ? knots.in_domain() : knots.all();

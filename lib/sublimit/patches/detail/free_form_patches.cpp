@@ -6,9 +6,9 @@
 #include <memory>
 #include <numeric>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/free_form_counts.h"
 #include "sublimit/patches/detail/basis_surface.h"
 #include "sublimit/patches/detail/cut_patch.h"

@@ -11,42 +11,44 @@
 
 namespace sublimit {
 
-/// Knots of one direction of a Bezier or B-spline element: pieces side by side share a control point.
+/// Returns the knots of one direction of a Bezier or B-spline element. Adjacent Bezier pieces share a control
+/// point.
 /// @throws InvalidParameter  knots that make no B-spline
 Knots<double> free_form_knots(FreeFormBasis basis, const FreeFormDirection& direction);
 
-/// One direction of an element of any other basis.
-/// @throws InvalidParameter  as SegmentBasis
+/// Returns one direction of an element of any other basis.
+/// @throws InvalidParameter  see SegmentBasis
 SegmentBasis free_form_segments(const FreeForm& shapes, FreeFormBasis basis, const FreeFormDirection& direction);
 
-/// Patches, the columns of their control points, and what each was in the file.
+/// Patches with the columns of their control points, and the line of each in the file.
 struct [[nodiscard]] FreeFormPatches {
   PatchSet patches;
-  Points columns;                  ///< x 3, or x 4, homogeneous, if one of them is rational
-  std::vector<std::int64_t> line;  ///< of each patch
+  Points columns;                  ///< #points x 3; homogeneous, x 4, if a patch is rational
+  std::vector<std::int64_t> line;  ///< line of each patch in the file
 };
 
-/// The surfaces of a file: Bezier surfaces of several pieces have knots of full multiplicity; of one whose range cuts
-/// its domain the part inside.
+/// Returns the surfaces of a file as patches. Bezier surfaces of several pieces get knots of full multiplicity.
+/// A surface whose range is smaller than its domain is cut to its range.
 /// @throws UnsupportedTopology  no surfaces
 /// @throws FormatError          knots that make no B-spline, a degree that is too high, with the line
 FreeFormPatches free_form_patches(const FreeForm& shapes, const std::string& name);
 
-/// The space curves of a file as one source: B-splines, pieces in other bases as the Bezier pieces that they are.
+/// The space curves of a file as one source: B-splines; curves in other bases are converted to Bezier pieces.
 struct [[nodiscard]] FreeFormCurves {
   CurveSet curves;
-  Points columns;  ///< x 3, or x 4, homogeneous, if one of them is rational; of one curve after the other
+  Points columns;  ///< curve by curve: #points x 3; homogeneous, x 4, if a curve is rational
   Coordinates coordinates = Coordinates::plain;
-  std::vector<std::int64_t> line;  ///< of each curve
+  std::vector<std::int64_t> line;  ///< line of each curve in the file
 };
-/// @throws UnsupportedTopology  no curves; one whose range cuts its domain
+/// Returns the curves of a file.
+/// @throws UnsupportedTopology  no curves; a curve whose range is smaller than its domain
 /// @throws FormatError          knots that make no B-spline, a degree that is too high, with the line
 FreeFormCurves free_form_curves(const FreeForm& shapes, const std::string& name);
 
-/// Patches as free-form surfaces, for a file: B-splines, closed ones with repeated points, rational ones with weights
-/// behind their points.
-/// @param columns  of all patches
-/// @throws UnsupportedTopology  a patch that is no B-spline; refined once it may be
+/// Returns B-spline patches as free-form surfaces for a file. Closed ones have repeated points, rational ones
+/// weights after their points.
+/// @param columns  control columns of all patches
+/// @throws UnsupportedTopology  a patch that is no B-spline; its refinement may be one
 /// @throws InvalidParameter     columns of another size
 FreeForm to_free_form(const PatchSet& patches, const Points& columns);
 

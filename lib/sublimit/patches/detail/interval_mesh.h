@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Bicubic B-spline surfaces as control meshes with knot intervals: the door from NURBS to `catmull-clark-intervals`,
-// and so to extraordinary points.
+// Conversion of bicubic B-spline surfaces to control meshes with knot intervals, for `catmull-clark-intervals`,
+// which allows extraordinary points.
 #include <vector>
 
 #include "sublimit/mesh/mesh.h"
@@ -9,18 +9,20 @@
 
 namespace sublimit {
 
+/// A control mesh with the same limit as a B-spline surface.
 struct IntervalMesh {
-  /// Quadrilaterals with intervals and boundary `none`, counter-clockwise as u turns to v; positions are empty. The
-  /// outermost faces beside open ends are support of the others' limit, and holes for that.
+  /// Quadrilaterals with knot intervals and boundary `none`, counter-clockwise from u to v; no positions. The
+  /// outermost faces at open ends only support the limit of the others, and are holes.
   Mesh mesh;
-  /// From the surface's control points (columns of three numbers, or four that are homogeneous) to those of the mesh,
-  /// u fastest: ends get knots beyond them, as far apart as the last two.
+  /// Matrix from the control columns of the surface (three numbers, or four homogeneous ones) to those of the
+  /// mesh, u fastest. At open ends knots beyond the domain are spaced like the last two inside.
   SparseMatrix from_points;
-  std::vector<Index> faces;  ///< of the mesh, for each face of the surface; parameters are the same
+  std::vector<Index> faces;  ///< face of the mesh for each face of the surface, with the same parameters
 };
 
-/// @throws InvalidParameter  naming direction and knot: another degree than 3, a repeated knot inside (an interval of
-///                           zero), fewer than three spans around
+/// Returns the control mesh of a surface.
+/// @throws InvalidParameter  another degree than 3, a repeated inner knot (an interval of zero), fewer than
+///                           three spans in a closed direction; names direction and knot
 IntervalMesh interval_mesh(const SplineSurface& surface);
 
 }  // namespace sublimit

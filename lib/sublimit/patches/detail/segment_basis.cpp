@@ -7,8 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/sparse_rows.h"
 #include "sublimit/patches/detail/spline_rows.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Rows of a B-spline in one variable, all of them values of one blossom: points and derivatives anywhere, and the
-// control points of the same curve over other knots, which make the matrices S: insertion of knots, midpoints of all
-// spans, pieces as Bezier curves, other end knots, a higher degree.
+// Rows of a B-spline in one variable, all computed as values of its blossom: points and derivatives, and the
+// control points of the same curve over other knots. The latter give the matrices S of knot insertion, halving
+// of all spans, Bezier extraction, change of end knots and degree elevation:
 //
 //   row_fine(t) S = row_coarse(t)
 //
-// Rows of points and of refinements have no negative term and are made without cancellation.
+// Rows of points and of refinements have only non-negative terms, and are computed without cancellation.
 // Source: Boehm 1980; Cohen, Lyche, Riesenfeld 1980; Prautzsch 1984; Borden et al. 2011.
 #include <array>
 #include <span>
@@ -30,7 +30,7 @@ struct BandRows {
   std::span<const T> operator[](Index row) const {
     return std::span<const T>(weights).subspan(static_cast<size_t>(row) * width, width);
   }
-  /// Room for one more row.
+  /// Appends a row of zeros, and returns it to be filled.
   std::span<T> add(Index first_function) {
     first.push_back(first_function);
     weights.resize(weights.size() + width, T(0));
@@ -38,13 +38,13 @@ struct BandRows {
   }
 };
 
-/// The knots that the piece of a face depends on, and the number of its span among them. Doubles are widened: rows are
-/// then as good as their last rounding.
+/// The knots that the piece of a face depends on, and its span among them. Doubles are widened to long double,
+/// so that rows are exact up to a final rounding.
 template <class T>
 struct PieceKnots {
   using Real = std::conditional_t<std::is_same_v<T, double>, long double, T>;
 
-  std::array<Real, 2 * max_degree + 2> storage;  // as many as are used are copied, where they are widened
+  std::array<Real, 2 * max_degree + 2> storage;  // widened knots; only those in use are set
   std::span<const Real> knots;
   Index span;
 
@@ -66,10 +66,10 @@ struct PieceKnots {
   }
 };
 
-/// Rows of a place: the position's, then those of derivatives per unit of the face, each over the basis functions
+/// Computes the rows of a place: position, then derivatives per unit of the face, each over the basis functions
 /// span(face) - p .. span(face).
-/// @param u     0 to 1; outside exact too, but no convex combination
-/// @param rows  (order + 1) (p + 1) weights
+/// @param u     0 to 1; outside, rows are correct but have negative weights
+/// @param rows  result, (order + 1) (p + 1) weights
 template <class T>
 void span_rows(const Knots<T>& knots, Index face, const T& u, int order, std::span<T> rows) {
   using Real = typename PieceKnots<T>::Real;
@@ -93,8 +93,9 @@ void span_rows(const Knots<T>& knots, Index face, const T& u, int order, std::sp
   }
 }
 
-/// Returns the weights of the blossom f(x_1, .., x_p) of the piece of a face.
-/// @param points  ascending; reordered
+/// Computes the weights of the blossom f(x_1, .., x_p) of the piece of a face.
+/// @param points  the arguments, ascending; reordered
+/// @param row     result, p + 1 weights
 template <class T>
 void blossom_row(const Knots<T>& knots, Index face, std::span<T> points, std::span<T> row) {
   using Real = typename PieceKnots<T>::Real;
@@ -105,7 +106,8 @@ void blossom_row(const Knots<T>& knots, Index face, std::span<T> points, std::sp
       .blossom(std::span<const BlossomArgument<Real>>(arguments).first(points.size()), Real(1), row);
 }
 
-/// @throws InvalidParameter  naming the knot: another domain, or an inner knot that the finer ones lack
+/// Throws unless `fine` has the domain of `coarse` and all its inner knots, `elevations` times more often.
+/// @throws InvalidParameter  another domain, or an inner knot that `fine` lacks; names the knot
 template <class T>
 void check_finer(const Knots<T>& coarse, const Knots<T>& fine, int elevations = 0) {
   const auto refuse = [](KnotFault fault, Index knot, const T& value, const T& other) {
@@ -126,10 +128,11 @@ void check_finer(const Knots<T>& coarse, const Knots<T>& fine, int elevations = 
   }
 }
 
-/// The control points over finer knots of the same degree as rows over the functions of the coarser ones.
+/// Returns the control points over finer knots of the same degree as rows over the functions of the coarser
+/// ones.
 ///
-/// Finer knots have every knot inside the domain at least as often. Those outside are free; if they have the coarser
-/// ones too, rows are convex combinations. A closed spline can be opened so.
+/// Finer knots contain every knot inside the domain at least as often. Knots outside are arbitrary; if they
+/// contain the coarser ones too, rows are convex combinations. A closed spline can be opened in this way.
 /// @throws InvalidParameter  degrees or domains that differ, a knot that is missing
 template <class T>
 BandRows<T> refinement_rows(const Knots<T>& coarse, const Knots<T>& fine) {
@@ -147,9 +150,10 @@ BandRows<T> refinement_rows(const Knots<T>& coarse, const Knots<T>& fine) {
   return rows;
 }
 
-/// The control points of the same curve, one degree higher: means over the ways to leave one argument out.
-/// @param fine  of one degree more, with every knot once more, as `elevated` has them
-/// @throws InvalidParameter  other degrees or another domain, a knot that is missing
+/// Returns the control points of the same curve one degree higher as rows over the functions of `coarse`: means
+/// of the blossom over the ways to omit one argument.
+/// @param fine  knots of one degree more with every knot once more, see `elevated_knots`
+/// @throws InvalidParameter  other degrees, another domain, or a missing knot
 template <class T>
 BandRows<T> elevation_rows(const Knots<T>& coarse, const Knots<T>& fine) {
   check_same_degree(coarse.degree() + 1, fine.degree());
@@ -175,7 +179,8 @@ BandRows<T> elevation_rows(const Knots<T>& coarse, const Knots<T>& fine) {
   return rows;
 }
 
-/// A face as a Bezier curve: its p + 1 control points ("extraction"). They depend on the type of the face alone.
+/// Returns the p + 1 Bezier control points of a face ("Bezier extraction") as rows. They depend only on the
+/// type of the face.
 template <class T>
 BandRows<T> bezier_rows(const Knots<T>& knots, Index face) {
   const Index p = knots.degree(), k = knots.span(face);
@@ -189,30 +194,31 @@ BandRows<T> bezier_rows(const Knots<T>& knots, Index face) {
   return rows;
 }
 
-/// True if a place is a knot where the other side has other rows, of those asked for.
+/// True if a place is a knot at which rows up to `order` differ between both sides.
 bool sides_differ(const Knots<double>& knots, const KnotPlace<double>& place, int order);
 
 /// Rows of a place over the control points.
 struct PointRows {
-  std::vector<Index> points;  ///< ascending, those without weight left out
+  std::vector<Index> points;  ///< control points with weight, ascending
   WeightRows weights;         ///< position, then derivatives per unit of the face; a column for each point
   bool sides_differ = false;
 };
+/// Returns the rows of a place up to `order`.
 PointRows point_rows(const Knots<double>& knots, const KnotPlace<double>& place, int order);
 
-/// Rows as a matrix over the control points: columns that are the same point of a closed spline are summed, zeros left
-/// out.
+/// Returns rows as a matrix over the control points. Columns of the same point of a closed spline are summed;
+/// zeros are left out.
 SparseMatrix point_matrix(const BandRows<double>& rows, const Knots<double>& knots);
 
 /// Returns the matrix S of finer knots, #points of `fine` x #points of `coarse`.
 /// @throws InvalidParameter  see refinement_rows, and elevation_rows if `fine` is of one degree more
 SparseMatrix refinement_matrix(const Knots<double>& coarse, const Knots<double>& fine);
 
-/// The knots of a part of the domain, its ends interpolated.
+/// Returns the knots of a part of the domain, with interpolated ends.
 /// @throws InvalidParameter  a part without length
 Knots<double> part_knots(const Knots<double>& whole, double first, double last);
 
-/// Control points over the knots of a part, as rows over those of the whole.
+/// Returns the control points over the knots of a part as rows over those of the whole.
 SparseMatrix part_matrix(const Knots<double>& whole, const Knots<double>& part);
 
 }  // namespace sublimit

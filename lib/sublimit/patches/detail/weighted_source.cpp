@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 
@@ -23,8 +23,8 @@ WeightedSource::WeightedSource(const PatchSet& patches, Eigen::VectorXd weights)
                              "; it must be finite, and not 0: that would be a direction, not a point");
 }
 
-LimitStencil WeightedSource::stencil(const Place& sample, int order) const {
-  LimitStencil stencil = patches_.stencil(sample, order);
+LimitStencil WeightedSource::stencil(const Place& place, int order) const {
+  LimitStencil stencil = patches_.stencil(place, order);
   if (stencil.weights.rows() == 0) return stencil;
   // R_i is the surface whose i-th point is 1, the others 0: all of them at once are one of as many dimensions.
   const auto n = std::ssize(stencil.vertices);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Bezier curves and patches with any numbers as control columns, and their derivatives across an end: of a patch
-// polynomials in the other parameter.
+// Bezier curves and patches with control columns in any number type, and their derivatives across an end. Those
+// of a patch are polynomials in the other parameter.
 #include <cstddef>
 #include <vector>
 
@@ -11,21 +11,22 @@
 
 namespace sublimit {
 
+/// A Bezier curve.
 template <class T>
 struct BezierPiece {
   int degree = 0;
-  std::vector<T> columns{};  ///< of degree + 1 control points, one after the other
+  std::vector<T> columns{};  ///< columns of the degree + 1 control points, point by point
   Coordinates coordinates = Coordinates::plain;
-  T length = T(1);  ///< of the parameter's interval
+  T length = T(1);  ///< length of the parameter interval
 };
 
-/// u is the parameter across the edge, v the one along it.
+/// A Bezier patch at an edge; u is the parameter across the edge, v the one along it.
 template <class T>
 struct BezierPatch {
   int degree_u = 0, degree_v = 0;
   std::vector<T> columns{};  ///< (degree_u + 1) x (degree_v + 1) control points, u fastest, of 3 or 4 columns each
   Coordinates coordinates = Coordinates::plain;
-  T length = T(1);  ///< of the parameter's interval in u
+  T length = T(1);  ///< length of the parameter interval in u
 };
 
 namespace bezier_piece_detail {
@@ -40,9 +41,10 @@ bool is_finite(const T& x) {
   return x - x == T(0);
 }
 
-/// @param width  columns of a control point, 0 if any number of them is fine
-/// @return  it
-/// @throws InvalidParameter  naming the piece
+/// Throws unless the columns and length of a piece are valid.
+/// @param width  required number of columns of a control point; 0: any
+/// @return  the number of columns of a control point
+/// @throws InvalidParameter  wrong counts, or numbers that are not finite; names the piece
 template <class T>
 int check_columns(const char* which, const std::vector<T>& columns, std::size_t points, int width, bool homogeneous,
                   const T& length) {
@@ -55,7 +57,7 @@ int check_columns(const char* which, const std::vector<T>& columns, std::size_t 
   return found;
 }
 
-/// The rows of a Bezier curve's end: position, then derivatives per unit of its parameter.
+/// Returns the rows at an end of a Bezier curve: position, then derivatives per unit of its parameter.
 template <class T>
 std::vector<T> end_rows(int degree, bool at_end, int orders, const T& length) {
   std::vector<T> rows(static_cast<std::size_t>((orders + 1) * (degree + 1)));
@@ -70,12 +72,13 @@ std::vector<T> end_rows(int degree, bool at_end, int orders, const T& length) {
 
 }  // namespace bezier_piece_detail
 
-/// Homogeneous coordinates of a point of an edge, x, y, z, w, as polynomials along it; w = 1 of plain ones.
+/// Homogeneous coordinates x, y, z, w of the points of an edge, as polynomials along it; w = 1 for plain
+/// columns.
 template <class T>
 using LineColumn = std::array<LinePolynomial<T>, 4>;
 
-/// The derivatives of a patch by u, per unit of its parameter, along u = 0 or u = 1.
-/// @return  orders + 1 of them, the position first
+/// Returns the derivatives of a patch by u, per unit of its parameter, along u = 0 or u = 1.
+/// @return  orders + 1 columns, the position first
 template <class T>
 std::vector<LineColumn<T>> cross_derivatives(const BezierPatch<T>& patch, bool at_end, int orders) {
   const int width = patch.coordinates == Coordinates::homogeneous ? 4 : 3, p = patch.degree_u, q = patch.degree_v;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How two Bezier curves meet, the end of one with the start of the other: polynomial or rational, over intervals of any
-// lengths. C^k compares derivatives p^(k), q^(k) per unit of the given parameters; G^k finds the derivatives b_1, b_2,
-// .. of a change of parameters with
+// Continuity of two Bezier curves where the end of one meets the start of the other. They may be polynomial or
+// rational, over intervals of any length. C^k compares derivatives p^(k), q^(k) per unit of the given
+// parameters; G^k finds the derivatives b_1, b_2, .. of a change of parameters with
 //
 //   q' = b_1 p',  q'' = b_1^2 p'' + b_2 p',  q''' = b_1^3 p''' + 3 b_1 b_2 p'' + b_3 p',  ..     b_1 > 0
 //
 // one after the other: each is a quotient of derivatives, so exact numbers decide exactly.
-// Source: Barsky, DeRose 1984, "Geometric continuity of parametric curves"; what is said where the derivative vanishes
-// is ours.
+// Source: Barsky, DeRose 1984, "Geometric continuity of parametric curves"; the case of vanishing
+// derivatives is ours.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -20,17 +20,18 @@
 
 namespace sublimit {
 
+/// Result of comparing two curves.
 struct CurveJoin {
   JoinOrders orders;
-  std::vector<double> point;  ///< where: the end of the left curve; empty at a pole
-  double gap = 0;             ///< from the end of the left curve to the start of the right one
-  /// Between the tangents, radians; at zero speed those of the first derivative that does not vanish. Nothing if a
-  /// curve is one point.
+  std::vector<double> point;  ///< end of the left curve; empty at a pole
+  double gap = 0;             ///< distance from the end of the left curve to the start of the right one
+  /// Angle between the tangents, radians. At zero speed tangents are the first derivatives that do not vanish.
+  /// Nothing if a curve is a single point.
   std::optional<double> angle{};
-  /// Curvature vectors (x'' - (x''.T) T)/|x'|^2, and how far apart they are; empty at zero speed.
+  /// Curvature vectors (x'' - (x''.T) T)/|x'|^2, and their distance; empty at zero speed.
   std::vector<double> left_curvature{}, right_curvature{};
   std::optional<double> curvature_jump{};
-  std::vector<double> ratios{};  ///< b_1 .. b_g, and b_1 < 0 of one that is folded back; empty at zero speed
+  std::vector<double> ratios{};  ///< b_1 .. b_g; b_1 < 0 alone if folded back; empty at zero speed
 };
 
 namespace curve_join_detail {
@@ -53,22 +54,23 @@ std::vector<double> in_doubles(const std::vector<T>& a) {
   return result;
 }
 
-/// a - factor b.
+/// Returns a - factor b.
 template <class T>
 std::vector<T> minus(std::vector<T> a, const T& factor, const std::vector<T>& b) {
   for (size_t k = 0; k < a.size(); ++k) a[k] -= factor * b[k];
   return a;
 }
 
-/// Derivatives at an end, by order, seen from a point.
+/// Derivatives at an end by order, relative to a point.
 template <class T>
 struct EndJet {
   bool is_pole = false;
   std::vector<std::vector<T>> derivatives{};
-  std::vector<double> sizes{};  ///< what they would be if no terms cancelled
+  std::vector<double> sizes{};  ///< sizes that they would have if no terms cancelled
 };
 
-/// @param columns  homogeneous, seen from a point near the end
+/// Returns the derivatives at an end of a curve.
+/// @param columns  homogeneous columns, relative to a point near the end
 template <class T>
 EndJet<T> end_jet(const std::vector<T>& columns, int degree, int dimension, bool at_end, int orders, const T& length) {
   const int width = dimension + 1;
@@ -112,7 +114,7 @@ EndJet<T> end_jet(const std::vector<T>& columns, int degree, int dimension, bool
   return result;
 }
 
-/// Coefficients of t^0 .. t^n of (b_1 t + b_2 t^2 + ..)^m.
+/// Returns the coefficients of t^0 .. t^n of (b_1 t + b_2 t^2 + ..)^m.
 template <class T>
 std::vector<T> power_of_series(const std::vector<T>& b, int m, int n) {
   std::vector<T> result(static_cast<size_t>(n) + 1, T(0));
@@ -126,7 +128,7 @@ std::vector<T> power_of_series(const std::vector<T>& b, int m, int n) {
   return result;
 }
 
-/// Columns with a weight each, seen from a point.
+/// Returns homogeneous columns of a piece, relative to a point.
 template <class T>
 std::vector<T> seen_from(const std::vector<T>& origin, const BezierPiece<T>& piece) {
   const size_t dimension = origin.size(), rational = piece.coordinates == Coordinates::homogeneous ? 1 : 0;
@@ -141,16 +143,17 @@ std::vector<T> seen_from(const std::vector<T>& origin, const BezierPiece<T>& pie
 
 }  // namespace curve_join_detail
 
-/// How the end of `left` and the start of `right` meet.
+/// Returns how the end of `left` and the start of `right` meet.
 ///
-/// Exact in exact numbers (fractions): the orders hold without any tolerance. In floating ones terms are compared with
-/// their own size. At zero speed the tangent is that of the first derivative that does not vanish, by its sign the
-/// direction in which the curve arrives or leaves; if both agree the join is G^1 and no more is said (`no_speed`).
-/// Orders up to the degrees are looked at: of polynomials the greater one, and G up to 3 at least; if one is rational
-/// their sum, from which on two curves are the same.
-/// @param tolerance  of floating numbers; `curvature` is not used
-/// @throws InvalidParameter  naming the piece: a negative degree, wrong counts, numbers that are not finite, lengths
-///                           that are not positive, points of different dimensions
+/// With exact numbers (fractions) the orders are exact, without any tolerance. With floating-point numbers
+/// terms are compared with their own size. At zero speed the tangent is the first derivative that does not
+/// vanish, with the sign of the direction in which the curve arrives or leaves; if both tangents agree the join
+/// is G^1, and higher orders are not decided (`no_speed`). Orders are examined up to the larger degree of two
+/// polynomials (G at least up to 3), or up to the sum of the degrees if one curve is rational: if all these
+/// derivatives agree, the curves are the same.
+/// @param tolerance  for floating-point numbers; `curvature` is not used
+/// @throws InvalidParameter  names the piece: a negative degree, wrong counts, numbers that are not finite,
+///                           lengths that are not positive, points of different dimensions
 template <class T>
 CurveJoin curve_join(const BezierPiece<T>& left, const BezierPiece<T>& right, const JoinTolerance& tolerance = {}) {
   using namespace curve_join_detail;

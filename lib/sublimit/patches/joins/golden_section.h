@@ -4,9 +4,9 @@
 
 namespace sublimit {
 
-/// Narrows an interval around the least value of a function by golden sections (Kiefer 1953). The function is asked,
-/// and keeps what it wants to.
-/// @param steps  each leaves 0.618 of the interval
+/// Evaluates a function by golden section search (Kiefer 1953) around its minimum in an interval. The function
+/// itself records the best value.
+/// @param steps  number of steps, each of which reduces the interval to 0.618 of its length
 template <class Function>
 void golden_section(const Function& f, double a, double b, int steps) {
   constexpr double golden = 1 / std::numbers::phi;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Polynomials along an edge, 0 <= t <= 1, by their Bernstein coefficients, in any number type. What is said of a join
-// of patches is that such polynomials vanish, or have one sign: a polynomial vanishes with its coefficients, and lies
-// between the least and the greatest of them. Halves come from the blossom.
+// Polynomials along an edge, 0 <= t <= 1, by their Bernstein coefficients, in any number type. Conditions on
+// joins of patches are that such polynomials vanish or have one sign. A polynomial vanishes if all its
+// coefficients do, and lies between the least and the greatest of them. Halves are computed by the blossom.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace sublimit {
 
-/// Binomial coefficients of degree n.
+/// Returns the binomial coefficients of degree n.
 template <class T>
 std::vector<T> binomials(int n) {
   std::vector<T> row{T(1)};
@@ -21,10 +21,11 @@ std::vector<T> binomials(int n) {
   return row;
 }
 
+/// A polynomial along an edge.
 template <class T>
 class LinePolynomial {
  public:
-  /// Zero, of no degree: sums and products with it have the degree of the rest, and none.
+  /// Makes the empty polynomial, a zero without degree: f + empty is f, f * empty is empty.
   LinePolynomial() = default;
   explicit LinePolynomial(std::vector<T> coefficients) : c_(std::move(coefficients)) {}
 
@@ -78,18 +79,18 @@ class LinePolynomial {
   std::vector<T> c_;
 };
 
-/// Signs of a polynomial in 0 < t < 1.
+/// Sign of a polynomial on 0 < t < 1.
 enum class LineSign {
-  zero,      ///< it vanishes
-  positive,  ///< but for single zeros, perhaps
-  negative,
+  zero,       ///< it vanishes
+  positive,   ///< positive except for isolated zeros
+  negative,   ///< likewise
   changing,   ///< both signs occur
-  undecided,  ///< coefficients have both signs on intervals that are too short to be halved again
+  undecided,  ///< coefficients still have both signs after the largest number of halvings
 };
 
 namespace line_polynomial_detail {
 
-/// Coefficients of the halves: values of the blossom at 0, 1/2 and 1.
+/// Returns the coefficients of both halves: values of the blossom at 0, 1/2 and 1.
 template <class T>
 std::array<std::vector<T>, 2> halves(const std::vector<T>& c) {
   const int n = static_cast<int>(c.size()) - 1;
@@ -111,7 +112,7 @@ std::array<std::vector<T>, 2> halves(const std::vector<T>& c) {
   return result;
 }
 
-/// Divides by t and by 1 - t as often as possible, none of which changes a sign inside.
+/// Returns the polynomial divided by t and by 1 - t as often as possible, which changes no sign inside.
 template <class T>
 std::vector<T> without_zeros_at_ends(const std::vector<T>& c) {
   size_t first = 0, last = c.size();
@@ -125,8 +126,9 @@ std::vector<T> without_zeros_at_ends(const std::vector<T>& c) {
   return rest;
 }
 
-/// @param found  which signs there are, positive and negative
-/// @return  whether all of the interval is decided
+/// Finds the signs of a polynomial.
+/// @param found  set to true for signs that occur: positive, negative
+/// @return  true if the sign is decided on the whole interval
 template <class T>
 bool find_signs(const std::vector<T>& coefficients, int halvings, bool (&found)[2]) {
   const std::vector<T> c = without_zeros_at_ends(coefficients);
@@ -143,8 +145,8 @@ bool find_signs(const std::vector<T>& coefficients, int halvings, bool (&found)[
 
 }  // namespace line_polynomial_detail
 
-/// The signs between the ends, zeros at the ends aside. Exact numbers decide all but zeros of even order inside that
-/// are no multiples of 2^-halvings.
+/// Returns the sign between the ends; zeros at the ends are ignored. With exact numbers only polynomials with a
+/// zero of even order inside, at no multiple of 2^-halvings, stay undecided.
 template <class T>
 LineSign sign_between_ends(const LinePolynomial<T>& f, int halvings = 24) {
   if (f.is_zero()) return LineSign::zero;

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <string>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/joins/line_samples.h"
 #include "sublimit/patches/joins/line_search.h"
 #include "sublimit/patches/joins/surface_join.h"

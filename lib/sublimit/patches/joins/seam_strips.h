@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Spline patches along a line of knots or a side as pairs of Bezier patches, in any number type: blossoms of one piece
-// across the line and of the parts that the knots of both sides have in common along it.
+// Spline patches along a line of knots or a side as pairs of Bezier patches, in any number type. The knots of
+// both patches divide the line into common parts; across it each patch contributes one row of faces.
 #include <array>
 #include <cstddef>
 #include <span>
@@ -13,17 +13,17 @@
 
 namespace sublimit {
 
-/// A line of constant u (v) of a patch where it ends, or where two of its rows of faces meet: seen from one of them.
+/// A line of constant u (v) at an end of a row of faces of a patch.
 struct PatchLine {
   std::size_t patch = 0;
-  bool along_v = true;             ///< a line of constant u
-  Index face = 0;                  ///< of the knots across the line
-  KnotSide end = KnotSide::right;  ///< which end of this face the line is
+  bool along_v = true;             ///< true for a line of constant u
+  Index face = 0;                  ///< face of the knots across the line
+  KnotSide end = KnotSide::right;  ///< end of this face at which the line is
 
   bool operator==(const PatchLine&) const = default;
 };
 
-/// A patch with its control columns, which it needs to stay.
+/// A patch, which must outlive this, with its control columns.
 struct PatchColumns {
   const SplineSurface* surface = nullptr;
   Points columns;  ///< #points x 3, or x 4 if they are homogeneous
@@ -32,7 +32,7 @@ struct PatchColumns {
   const Knots<double>& along(const PatchLine& line) const { return line.along_v ? surface->v() : surface->u(); }
 };
 
-/// Doubles as numbers of another type, exactly those.
+/// Returns knots in another number type, with exactly the same values.
 template <class T>
 Knots<T> converted(const Knots<double>& knots) {
   const std::span<const double> from = knots.is_closed() ? knots.in_domain() : knots.all();
@@ -42,7 +42,7 @@ Knots<T> converted(const Knots<double>& knots) {
                            : Knots<T>::open(knots.degree(), knots.num_points(), std::move(to));
 }
 
-/// An interval inside of a face; from > to where it is run through backwards.
+/// An interval inside a face; from > to if it is traversed backwards.
 template <class T>
 struct LinePart {
   Index face = 0;
@@ -66,7 +66,7 @@ struct SeamNet {
   }
 };
 
-/// Rows of the Bezier points of a part over the basis functions of its face, degree + 1 times as many numbers.
+/// Returns the Bezier points of a part as rows over the basis functions of its face: (degree + 1)^2 numbers.
 template <class T>
 std::vector<T> part_rows(const Knots<T>& knots, const LinePart<T>& part) {
   const auto p = static_cast<std::size_t>(knots.degree());
@@ -80,8 +80,8 @@ std::vector<T> part_rows(const Knots<T>& knots, const LinePart<T>& part) {
   return rows;
 }
 
-/// The Bezier patch beside a line, its u across the line and its v along it.
-/// @param at_end  the line is u = 1, else u = 0
+/// Returns the Bezier patch at a part of a line, with u across the line and v along it.
+/// @param at_end  true: the line is u = 1; false: u = 0
 template <class T>
 BezierPatch<T> strip(const SeamNet<T>& net, const PatchLine& line, bool at_end, const LinePart<T>& along) {
   const Knots<T>&across_knots = line.along_v ? net.u : net.v, &along_knots = line.along_v ? net.v : net.u;
@@ -117,16 +117,16 @@ BezierPatch<T> strip(const SeamNet<T>& net, const PatchLine& line, bool at_end, 
   return result;
 }
 
-/// Parts of a line that are inside of one face on both sides.
+/// A part of a line inside one face of each patch.
 template <class T>
 struct CommonPart {
   LinePart<T> left, right;
-  T begin{}, end{};  ///< on the line, of 0 to 1
+  T begin{}, end{};  ///< the part in the parameter 0 .. 1 of the line
 };
 
-/// Both sides' knots in a common parameter, that maps either domain linearly to 0 .. 1.
-/// @param reversed   the right side runs backwards
-/// @param tolerance  knots as near as that are one
+/// Returns the common parts of a line, in a parameter that maps both domains linearly to 0 .. 1.
+/// @param reversed   true if the right side runs backwards
+/// @param tolerance  distance up to which knots count as equal
 template <class T>
 std::vector<CommonPart<T>> common_parts(const Knots<T>& left, const Knots<T>& right, bool reversed,
                                         const T& tolerance = T(0)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Vertices where corners of patches meet: how many, whether they have one tangent plane, and whether the curves between
-// the patches can have a G^1 surface at all.
+// Vertices at which corners of patches meet: their valence, whether they have a common tangent plane, and
+// whether a G^1 surface through the curves between the patches exists.
 //
 // Let c_1 .. c_n be the curves that leave an interior vertex, in order around it, with tangents t_i in one plane of
 // normal N, and x_i the patch between c_i and c_{i+1}. G^1 across c_i, derived once along it, has the normal part
@@ -24,32 +24,34 @@ namespace sublimit {
 /// A corner of a patch.
 struct PatchCorner {
   std::size_t patch = 0;
-  bool u_end = false, v_end = false;  ///< else begin
+  bool u_end = false, v_end = false;  ///< true: at the end of u (v); false: at its beginning
 
   bool operator==(const PatchCorner&) const = default;
 };
 
+/// A vertex.
 struct SeamVertex {
-  std::vector<PatchCorner> corners;  ///< in order around the vertex: neighbours have a side in common
+  std::vector<PatchCorner> corners;  ///< in order around the vertex; consecutive ones share a side
   bool is_interior = false;          ///< the last corner is followed by the first
   std::array<double, 3> point = {};
-  /// A side of a corner is one point, derivatives at a corner are parallel, or the surface has no point: nothing below
-  /// is filled.
+  /// True if a side at a corner is collapsed, derivatives at a corner are parallel, or the surface has a pole.
+  /// The members below are then not set.
   bool is_degenerate = false;
-  double plane_angle = 0;  ///< the greatest of two corners' tangent planes, radians
+  double plane_angle = 0;  ///< largest angle between tangent planes of two corners, radians
   bool planes_agree = false;
-  /// Interior vertices with one tangent plane: the greatest |M_i + M_{i-1} - r_i|, 1/length. It vanishes where all
-  /// patches around are G^1.
+  /// Interior vertices with a common tangent plane: the largest |M_i + M_{i-1} - r_i|, 1/length. It vanishes if
+  /// all patches around join G^1.
   std::optional<double> twist_residual{};
-  /// Those of even valence: the alternating sum of the r_i, 1/length, and whether it vanishes.
+  /// Such vertices of even valence: the alternating sum of the r_i, 1/length, and whether it vanishes.
   std::optional<double> enclosure{};
   std::optional<bool> can_be_enclosed{};
 
   int valence() const { return static_cast<int>(corners.size()); }
 };
 
-/// Vertices at the ends of sides, of patches that are open in both directions; by their first corners.
-/// @param seams  of the same patches
+/// Returns the vertices at the ends of sides of patches that are open in both directions, ordered by first
+/// corner.
+/// @param seams  seams of the same patches
 std::vector<SeamVertex> seam_vertices(std::span<const PatchColumns> patches, Coordinates coordinates,
                                       const PatchSeams& seams, const JoinTolerance& tolerance = {});
 

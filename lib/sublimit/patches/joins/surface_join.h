@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How two tensor-product Bezier patches meet along an edge, u = 1 of the left one and u = 0 of the right one, both with
-// the same v. With homogeneous columns H(u, v) = w (S, 1) of the left and K of the right patch, all of it is said by
-// polynomials in v that vanish or have one sign, so exact numbers decide exactly. Derivatives are those at the edge,
-// and P = H ^ H_u ^ H_v is the tangent plane: P.x = det(H, H_u, H_v, x), and its first three coordinates are w^3 S_u x
-// S_v.
+// Continuity of two tensor-product Bezier patches along an edge, u = 1 of the left one and u = 0 of the right
+// one, with the same v. In homogeneous columns, H(u, v) = w (S, 1) of the left and K of the right patch, all
+// conditions are that polynomials in v vanish or have one sign, so exact numbers decide them exactly.
+// Derivatives are those at the edge, and P = H ^ H_u ^ H_v is the tangent plane: P.x = det(H, H_u, H_v, x), and
+// its first three coordinates are w^3 S_u x S_v.
 //
 //   C^k   A_l w_r - A_r w_l vanishes up to order k in u, for H = (A_l, w_l), K = (A_r, w_r)
 //   G^1   P.K_u = 0, and P_l.P_r w_l w_r > 0 (first three coordinates): not folded back
@@ -32,7 +32,7 @@ namespace sublimit {
 
 namespace surface_join_detail {
 
-/// The covector P with P.x = det(a, b, c, x).
+/// Returns the covector P with P.x = det(a, b, c, x).
 template <class T>
 LineColumn<T> wedge(const LineColumn<T>& a, const LineColumn<T>& b, const LineColumn<T>& c) {
   LineColumn<T> result;
@@ -58,7 +58,7 @@ LineColumn<T> derivative(const LineColumn<T>& a) {
   return {a[0].derivative(), a[1].derivative(), a[2].derivative(), a[3].derivative()};
 }
 
-/// Derivative of order k in u of A_l w_r - A_r w_l, one of three coordinates.
+/// Returns the derivative of order k in u of one of the three coordinates of A_l w_r - A_r w_l.
 template <class T>
 LinePolynomial<T> difference(const std::vector<LineColumn<T>>& left, const std::vector<LineColumn<T>>& right, int k,
                              size_t coordinate) {
@@ -71,7 +71,8 @@ LinePolynomial<T> difference(const std::vector<LineColumn<T>>& left, const std::
   return sum;
 }
 
-/// @throws InvalidParameter  naming the patch
+/// Throws unless the columns and degrees of a patch are valid.
+/// @throws InvalidParameter  names the patch
 template <class T>
 void check(const BezierPatch<T>& patch, const char* which) {
   check_degree(patch.degree_u);
@@ -81,7 +82,7 @@ void check(const BezierPatch<T>& patch, const char* which) {
   bezier_piece_detail::check_columns(which, patch.columns, points, rational ? 4 : 3, rational, patch.length);
 }
 
-/// From this order on two maps are the same.
+/// Returns the order up to which derivatives must agree for two patches to be the same map.
 template <class T>
 int highest_order(const BezierPatch<T>& left, const BezierPatch<T>& right) {
   const bool rational = left.coordinates == Coordinates::homogeneous || right.coordinates == Coordinates::homogeneous;
@@ -90,12 +91,13 @@ int highest_order(const BezierPatch<T>& left, const BezierPatch<T>& right) {
 
 }  // namespace surface_join_detail
 
-/// The orders of a join by the identities above, without any tolerance: exact in exact numbers, which T must be. G^k of
-/// orders above 2 is not looked for, but follows from C^k.
+/// Returns the orders of a join by the identities above, without any tolerance. T must be an exact number type.
+/// G^k above 2 is not examined by itself, but follows from C^k.
 ///
-/// Where normals vanish at an end of the edge (a pole), or at single points, what is said holds beside them.
-/// @throws InvalidParameter  naming the patch: a negative degree, wrong counts, numbers that are not finite, lengths
-///                           that are not positive
+/// If normals vanish at an end of the edge (a pole) or at isolated points, the result is about the rest of the
+/// edge.
+/// @throws InvalidParameter  names the patch: a negative degree, wrong counts, numbers that are not finite,
+///                           lengths that are not positive
 template <class T>
 JoinOrders exact_orders(const BezierPatch<T>& left, const BezierPatch<T>& right) {
   using namespace surface_join_detail;
@@ -154,23 +156,25 @@ JoinOrders exact_orders(const BezierPatch<T>& left, const BezierPatch<T>& right)
   return result;
 }
 
-/// C^k in rounded numbers: coefficients of the same polynomials against the size of their terms.
-/// @return  the greatest k, -1 for a gap; and whether it is the highest one that can fail
+/// Result of `rounded_order`.
 struct RoundedOrder {
-  int c = -1;
-  bool is_same = false;
+  int c = -1;            ///< largest k of C^k; -1 for a gap
+  bool is_same = false;  ///< true if all derivatives that can differ agree
 };
+/// Returns C^k in floating-point numbers: coefficients of the same polynomials are compared with the size of
+/// their terms.
 RoundedOrder rounded_order(BezierPatch<double> left, BezierPatch<double> right, double tolerance);
 
+/// Result of comparing two patches.
 struct SurfaceJoin {
   JoinOrders measured;
-  std::optional<JoinOrders> exact{};  ///< if numbers are exact
-  EdgeDeviation deviation{};          ///< where: s is v
+  std::optional<JoinOrders> exact{};  ///< set for exact numbers
+  EdgeDeviation deviation{};          ///< measured deviations; the parameter s of places is v
 };
 
-/// How the edge u = 1 of `left` and the edge u = 0 of `right` meet, measured by samples, see measured_deviation, and,
-/// in exact numbers, decided.
-/// @throws InvalidParameter  as exact_orders
+/// Returns how the edge u = 1 of `left` and the edge u = 0 of `right` meet, measured by samples (see
+/// measured_deviation), and for exact numbers also decided exactly.
+/// @throws InvalidParameter  see exact_orders
 SurfaceJoin surface_join(const BezierPatch<double>& left, const BezierPatch<double>& right,
                          const JoinTolerance& tolerance = {});
 

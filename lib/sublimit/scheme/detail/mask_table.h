@@ -12,7 +12,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/mesh/topology.h"
-#include "sublimit/scheme/check_scheme.h"
+#include "sublimit/scheme/detail/check_scheme.h"
 #include "sublimit/scheme/sites.h"
 
 namespace sublimit {

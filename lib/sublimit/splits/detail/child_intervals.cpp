@@ -35,7 +35,7 @@ KnotIntervals child_point_intervals(const Topology& parent, const Refinement& re
     if (const HalfEdge out = t.twin(across_edge); exists(out)) at_head(t.prev(out)) = along;
     if (const HalfEdge out = t.twin(inwards); exists(out)) at_tail(t.next(out)) = split.distance[next_back];
   }
-  if (!intervals.ends.empty()) find_point_ends(t, result);
+  if (!intervals.ends.empty()) set_point_ends(t, result);
   simplify(result);
   return result;
 }

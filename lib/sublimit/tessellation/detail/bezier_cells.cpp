@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/limit/detail/net_derivatives.h"
 

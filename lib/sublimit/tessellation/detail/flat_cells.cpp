@@ -13,9 +13,9 @@
 #include <string>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/limit/detail/limit_map_parts.h"
 #include "sublimit/limit/detail/limit_patches.h"

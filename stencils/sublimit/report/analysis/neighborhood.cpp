@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/certificates/detail/dart.h"
 #include "sublimit/certificates/detail/spectral_verdicts.h"
 #include "sublimit/certificates/detail/witness.h"
@@ -17,7 +17,7 @@
 #include "sublimit/report/analysis/masks_json.h"
 #include "sublimit/report/analysis/modes_json.h"
 #include "sublimit/report/analysis/spectrum_json.h"
-#include "sublimit/scheme/check_scheme.h"
+#include "sublimit/scheme/detail/check_scheme.h"
 
 namespace sublimit::report {
 namespace {
@@ -143,10 +143,19 @@ LocalType local_type(const NeighborhoodKind& kind) {
   return type;
 }
 
-std::optional<LocalPatch<Algebraic>> local_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind) {
+namespace {
+
+template <class T>
+std::optional<LocalPatch<T>> patch_of(const Scheme<T>& scheme, const NeighborhoodKind& kind) {
   if (kind.kind == Kind::dart) return dart_patch(scheme, kind.n);
   if (kind.kind == Kind::crease) return crease_patch(scheme, kind.n);
   return sublimit::local_patch(scheme, local_type(kind));
+}
+
+}  // namespace
+
+std::optional<LocalPatch<Algebraic>> local_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind) {
+  return patch_of(scheme, kind);
 }
 
 std::optional<LocalPatch<Algebraic>> analysed_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind,
@@ -229,8 +238,8 @@ SharedAnalysis shared_analysis(const ReportedScheme& scheme) {
 
 /// Checks that the masks in doubles have the weights of those in exact numbers, to rounding.
 /// @throws InvalidParameter  a weight differs, or points that one of both does not reach
-void check_alike(const ReportedScheme& scheme, const LocalType& type, const LocalPatch<Algebraic>& exact) {
-  const std::optional<LocalPatch<double>> rounded = sublimit::local_patch(scheme.scheme, type);
+void check_alike(const ReportedScheme& scheme, const NeighborhoodKind& kind, const LocalPatch<Algebraic>& exact) {
+  const std::optional<LocalPatch<double>> rounded = patch_of(scheme.scheme, kind);
   const Eigen::Index points = rounded ? rounded->A.rows() : 0;
   if (points != exact.A.rows())
     throw InvalidParameter(scheme.scheme.name + ": masks reach " + std::to_string(points) + " points in doubles and " +
@@ -252,13 +261,13 @@ Json neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, co
   const bool is_dart = kind.kind == Kind::dart;
   const std::optional<LocalPatch<Algebraic>> patch = local_patch(scheme.exact, kind);
   if (!patch) return nullptr;
+  check_alike(scheme, kind, *patch);
   Json json = {{"kind", kind.name()}, {"n", kind.n}};
   if (kind.kind == Kind::crease)
     if (const auto border = sublimit::local_patch(scheme.exact, type); border && is_same_matrix(*border, *patch)) {
       json["same_as"] = "border";
       return json;
     }
-  if (!is_dart && kind.kind != Kind::crease) check_alike(scheme, type, *patch);
   json["points"] = patch->slots.size();
   json["labels"] = Json::array();
   for (const SectorLabel& label : patch->labels) json["labels"].push_back(to_json(label));

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
 #include "sublimit/report/analysis/claims_json.h"
 

@@ -100,14 +100,14 @@ class Collector {
  private:
   ForAll within_;
   static constexpr double limits_none = std::numeric_limits<double>::infinity();
-  SeamExcess excess(const Seam& seam, const char* what, const Peak& peak, const Place& sample,
+  SeamExcess excess(const Seam& seam, const char* what, const Peak& peak, const Place& place,
                     const LimitSamples& samples) const {
     SeamExcess e;
     e.what = what;
     e.value = peak.value;
-    e.address = sample.face;
-    e.u = sample.u;
-    e.v = sample.v;
+    e.address = place.face;
+    e.u = place.u;
+    e.v = place.v;
     e.place = samples.position.row(peak.row);
     e.face = index(t_.face(seam.half));
     const Index tail = index(t_.tail(seam.half));

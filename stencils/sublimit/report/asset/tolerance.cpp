@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/report/asset/asset_report.h"
 
 namespace sublimit {

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/certificates/detail/exact_joins.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/limit/detail/for_all.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/report/free_form/free_form_report.h"
 
 namespace sublimit::free_form_detail {

@@ -19,11 +19,11 @@ namespace sublimit {
 
 /// A change of connectivity or tags. Faces keep their numbers, new ones get the next; so do vertices.
 struct MeshEdit {
-  std::vector<Index> removed_faces;
-  std::vector<std::vector<Index>> added_faces;  ///< corners of each, counter-clockwise
-  Index added_vertices = 0;                     ///< behind those that there are
-  std::vector<Mesh::Crease> creases;            ///< along edges that there are; sharpness 0 makes them smooth
-  std::vector<Mesh::Corner> corners;
+  std::vector<Index> removed_faces = {};
+  std::vector<std::vector<Index>> added_faces = {};  ///< corners of each face, counter-clockwise
+  Index added_vertices = 0;                          ///< number of new vertices, numbered after the existing ones
+  std::vector<Mesh::Crease> creases = {};            ///< along existing edges; sharpness 0 makes an edge smooth
+  std::vector<Mesh::Corner> corners = {};
 };
 
 /// Faces that an edit has changed.

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/stencils/files/csv_fields.h"
 #include "sublimit/stencils/files/frames.h"
 

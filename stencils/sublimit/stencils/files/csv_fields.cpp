@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 
 namespace sublimit {
 

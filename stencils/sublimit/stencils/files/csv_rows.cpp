@@ -10,8 +10,8 @@
 #include <cstring>
 
 #include "sublimit/base/detail/file_error.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/text_scanner.h"
 
 namespace sublimit {

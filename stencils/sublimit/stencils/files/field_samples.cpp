@@ -5,8 +5,8 @@
 #include <string>
 
 #include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/stencils/files/csv_rows.h"
 
 namespace sublimit {

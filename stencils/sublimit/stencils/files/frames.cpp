@@ -5,8 +5,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/polygon_files.h"
 #include "sublimit/io/read_mesh.h"

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/mapped_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/ply.h"
 #include "sublimit/stencils/files/csv_fields.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/limit/curvature.h"
 #include "sublimit/limit/detail/why_outside.h"
 #include "sublimit/stencils/files/csv_fields.h"

@@ -54,7 +54,7 @@ class SampleReader {
 };
 
 /// Returns the place of the domain nearest to finite (u, v): of the square, or of the triangle u, v >= 0, u + v <= 1.
-Place clamped(const Place& sample, bool triangle);
+Place clamped(const Place& place, bool triangle);
 
 /// Columns of a file of samples.
 struct SampleColumns {

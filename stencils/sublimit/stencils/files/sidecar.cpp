@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/mesh/detail/edge_lookup.h"
 
 namespace sublimit {

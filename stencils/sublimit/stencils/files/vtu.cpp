@@ -5,9 +5,9 @@
 #include <array>
 
 #include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/scheme/detail/check_levels.h"
 
 namespace sublimit {

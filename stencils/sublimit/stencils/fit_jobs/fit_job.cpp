@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/stencils/fit_jobs/fit_job.h"
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/fit/detail/point_normal_polygons.h"
 #include "sublimit/patches/detail/weighted_source.h"
 
@@ -189,7 +189,7 @@ ReportedFit fit_near_cloud(const Scheme<double>& scheme, const Mesh& mesh, const
   const LimitMap surface(scheme, mesh, settings.rules);
   CloudFitOptions options{.fairness = settings.fairness,
                           .pins = settings.pins,
-                          .max_iterations = settings.iterations,
+                          .iterations = settings.iterations,
                           .solver = {.method = settings.method}};
   options.progress = [&](int iteration, const CloudIteration& at) {
     if (settings.progress)

@@ -3,8 +3,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/stencils/files/csv_rows.h"
 #include "sublimit/stencils/fit_jobs/fit_job.h"

@@ -8,8 +8,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/geometric/curvature_mesh.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 #include "sublimit/stencils/files/csv_rows.h"

@@ -75,8 +75,8 @@ bool Patterns::find(const Level& level, const Piece& piece, Match& match) const 
   Turned found;
   {
     const std::shared_lock lock(mutex_);
-    const auto known = turned_.find(own->signature);
-    if (known == turned_.end()) return false;
+    const auto known = by_signature_.find(own->signature);
+    if (known == by_signature_.end()) return false;
     found = known->second;
   }
   if (found.turn != 0) own = &walk(found.turn);
@@ -113,7 +113,8 @@ Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
   const int least = static_cast<int>(std::min_element(signatures.begin(), signatures.end()) - signatures.begin());
   const PieceType* type = types_->pieces().type(level, walk.piece(least), walk(least));
   const std::unique_lock lock(mutex_);
-  if (const auto known = turned_.find(signatures[least]); known != turned_.end())  // another thread was faster
+  if (const auto known = by_signature_.find(signatures[least]);
+      known != by_signature_.end())  // another thread was faster
     return {known->second.pattern, least, vertices[least], signatures[0].size()};
   Pattern& pattern = add_pattern(piece.kind, type->num_slots(), type->decays());
   pattern.type = type;
@@ -123,7 +124,7 @@ Patterns::Match Patterns::match(const Level& level, const Piece& piece) {
     // piece that was met first.
     int next = 0;
     while (signatures[(turn + next) % turns] != signatures[least]) ++next;
-    turned_.try_emplace(signatures[turn], Turned{&pattern, next});
+    by_signature_.try_emplace(signatures[turn], Turned{&pattern, next});
   }
   return {&pattern, least, vertices[least], signatures[0].size()};
 }
@@ -311,7 +312,8 @@ std::vector<Patterns::Stored> Patterns::stored() const {
     all[pattern.number].num_slots = pattern.num_slots;
     all[pattern.number].decays = pattern.decays;
   }
-  for (const auto& [words, turned] : turned_) all[turned.pattern->number].signatures.push_back({turned.turn, words});
+  for (const auto& [words, turned] : by_signature_)
+    all[turned.pattern->number].signatures.push_back({turned.turn, words});
   for (Stored& one : all)  // the same file whatever the order of a hash table
     std::sort(one.signatures.begin(), one.signatures.end(),
               [](const auto& a, const auto& b) { return std::tie(a.turn, a.words) < std::tie(b.turn, b.words); });
@@ -335,13 +337,14 @@ void Patterns::add(Stored stored) {
   std::unique_lock lock(mutex_);
   const Pattern* pattern = nullptr;
   for (const Stored::Signature& signature : stored.signatures)
-    if (const auto known = turned_.find(signature.words); known != turned_.end()) pattern = known->second.pattern;
+    if (const auto known = by_signature_.find(signature.words); known != by_signature_.end())
+      pattern = known->second.pattern;
   if (pattern && pattern->num_slots != stored.num_slots) return;
   if (!pattern) {
     Pattern& added = add_pattern(stored.kind, stored.num_slots, stored.decays);
     for (Stored::Signature& signature : stored.signatures) {
       added.size = std::max(added.size, signature.words.size());
-      turned_.try_emplace(std::move(signature.words), Turned{&added, signature.turn});
+      by_signature_.try_emplace(std::move(signature.words), Turned{&added, signature.turn});
     }
     pattern = &added;
   }

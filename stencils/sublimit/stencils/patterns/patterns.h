@@ -148,7 +148,7 @@ class Patterns {
   std::shared_ptr<LimitCache> types_;
   mutable std::shared_mutex mutex_;  // of the patterns and their signatures
   std::deque<Pattern> patterns_;
-  std::unordered_map<std::vector<std::uint32_t>, Turned, SignatureHash> turned_;
+  std::unordered_map<std::vector<std::uint32_t>, Turned, SignatureHash> by_signature_;
   /// Computing rows of many levels computes those of fewer levels.
   FoundByKey<std::tuple<const PieceType*, int, Ends>, RowMatrix> differences_;
   /// Key: number of the pattern, levels, ends.

@@ -34,8 +34,8 @@ struct Construction::Made {
   std::vector<std::string> names, notes;
 };
 
-const std::vector<std::string>& Construction::names() const { return made_->names; }
-const std::vector<std::string>& Construction::notes() const { return made_->notes; }
+const std::vector<std::string>& Construction::names() const& { return made_->names; }
+const std::vector<std::string>& Construction::notes() const& { return made_->notes; }
 
 Patches Construction::surfaces() const {
   if (const auto* const recipes = std::get_if<std::vector<Recipe>>(&made_->shapes)) {

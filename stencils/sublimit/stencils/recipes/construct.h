@@ -12,6 +12,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sublimit/patches/curve_set.h"
@@ -53,8 +54,10 @@ class Curves {
 /// its data.
 class Construction {
  public:
-  const std::vector<std::string>& names() const;  ///< name of each recipe or element, as in messages
-  const std::vector<std::string>& notes() const;  ///< warnings about accepted input
+  const std::vector<std::string>& names() const&;  ///< name of each recipe or element, as in messages
+  const std::vector<std::string>& notes() const&;  ///< warnings about accepted input
+  std::vector<std::string> names() && { return std::as_const(*this).names(); }  ///< a copy, from temporaries
+  std::vector<std::string> notes() && { return std::as_const(*this).notes(); }  ///< a copy, from temporaries
 
   /// Returns all surfaces as one set of patches.
   /// @throws UnsupportedTopology  there are none, or triangular patches besides others

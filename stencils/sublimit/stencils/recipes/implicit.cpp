@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/implicit/detail/level_set_mesh.h"
 #include "sublimit/stencils/recipes/detail/field_recipe.h"
 

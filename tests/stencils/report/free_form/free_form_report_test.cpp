@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "support/expect_error.h"
 #include "support/free_form_shapes.h"
 #include "support/tolerance.h"

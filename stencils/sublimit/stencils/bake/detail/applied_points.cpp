@@ -8,9 +8,9 @@
 #include <limits>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/detail/row_writer.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/eval/detail/point_addresses.h"
 #include "sublimit/limit/limit_status.h"
 

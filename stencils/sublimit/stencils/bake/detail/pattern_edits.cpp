@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <unordered_map>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/stencils/bake/detail/bake_patterns.h"
 
 namespace sublimit {

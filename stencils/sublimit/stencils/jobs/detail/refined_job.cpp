@@ -8,14 +8,23 @@
 
 namespace sublimit {
 
+bool may_leave_out(const MeshJob& job, const Error& error) {
+  const bool unable = error.code() == ErrorCode::unsupported_topology || error.code() == ErrorCode::invalid_option;
+  return unable && !job.face_varying_asked;
+}
+
+std::string left_out(const Mesh::FaceVarying& channel, size_t number, const std::string& why_not) {
+  return (number == 0 ? std::string("texture coordinates are") : "channel '" + channel.name + "' is") +
+         " left out: " + why_not;
+}
+
 std::vector<FaceVaryingLevel> refined_channel(const MeshJob& job, const std::vector<Level>& levels,
                                               std::string& why_not, size_t number) {
   if (number >= job.mesh.face_varying.size()) return {};
   try {
     return refine_face_varying(*job.scheme, job.face_varying, job.mesh.face_varying[number], levels);
   } catch (const Error& error) {
-    const bool unable = error.code() == ErrorCode::unsupported_topology || error.code() == ErrorCode::invalid_option;
-    if (!unable || job.face_varying_asked) throw;
+    if (!may_leave_out(job, error)) throw;
     why_not = error.what();
     return {};
   }
@@ -33,8 +42,7 @@ Mesh refined_mesh(const MeshJob& job, int levels, const std::function<void(int)>
     std::string why_not;
     const std::vector<FaceVaryingLevel> channel = refined_channel(job, all, why_not, c);
     if (channel.empty()) {
-      refined.warnings.push_back((c == 0 ? std::string("texture coordinates are") : "channel '" + given.name + "' is") +
-                                 " left out: " + why_not);
+      refined.warnings.push_back(left_out(given, c, why_not));
       continue;
     }
     const Topology& t = channel.back().level.topology();

@@ -5,11 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "sublimit/base/error.h"
 #include "sublimit/primvar/face_varying.h"
 #include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit {
+
+/// True if a channel that the scheme cannot refine may be left out: refining it was not asked for.
+/// @param error  thrown when it was refined
+bool may_leave_out(const MeshJob& job, const Error& error);
+/// Returns the warning that a channel is left out.
+/// @param number   number of the channel; 0: texture coordinates
+/// @param why_not  the reason
+std::string left_out(const Mesh::FaceVarying& channel, size_t number, const std::string& why_not);
 
 /// Returns the levels of one of the mesh's channels, its texture coordinates by default; empty if it has none, or if
 /// the scheme cannot refine them and they were not asked for.

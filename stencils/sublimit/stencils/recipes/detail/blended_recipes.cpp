@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/constructions/coons.h"
 #include "sublimit/patches/constructions/gordon.h"
 #include "sublimit/patches/constructions/gregory_patch.h"
@@ -21,12 +21,12 @@ double read_tolerance(RecipeObject& object) {
 }
 
 void read_hermite_surface(RecipeObject& object, Recipe& recipe) {
-  const auto vectors = static_cast<HermiteVectors>(object.word("vectors", hermite_vectors_words));
+  const auto vectors = static_cast<HermiteVectors>(object.word("vectors", hermite_vectors_names));
   std::vector<const char*> fields{"p", "pu", "pv"};
   if (vectors == HermiteVectors::sixteen) {
     fields.push_back("puv");
   } else if (object.has("puv")) {
-    object.fail("puv", std::string("comes with vectors \"") + hermite_vectors_words[int(vectors)] +
+    object.fail("puv", std::string("comes with vectors \"") + hermite_vectors_names[int(vectors)] +
                            "\", which has twists of its own; \"16\" takes them");
   }
   Points data(4 * std::ssize(fields), 3);

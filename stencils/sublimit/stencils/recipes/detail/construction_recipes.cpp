@@ -2,8 +2,8 @@
 #include <numbers>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/constructions/revolution.h"
 #include "sublimit/patches/constructions/ruled.h"
 #include "sublimit/patches/constructions/screw_surface.h"

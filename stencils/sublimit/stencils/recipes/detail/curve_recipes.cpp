@@ -2,8 +2,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/constructions/interpolation.h"
 #include "sublimit/patches/constructions/lagrange_curve.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"

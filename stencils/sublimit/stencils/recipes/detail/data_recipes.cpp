@@ -2,7 +2,7 @@
 // Kinds that come as their data: triangles with normals, joins, fields.
 #include <utility>
 
-#include "sublimit/base/format_number.h"
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/stencils/recipes/detail/recipe_readers.h"
 
 namespace sublimit {

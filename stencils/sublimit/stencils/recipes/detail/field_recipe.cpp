@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/nearest_names.h"
 #include "sublimit/implicit/detail/combinations.h"
 #include "sublimit/stencils/recipes/detail/recipe.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/constructions/graph.h"
 #include "sublimit/patches/constructions/lagrange_curve.h"
 #include "sublimit/patches/constructions/lagrange_surface.h"

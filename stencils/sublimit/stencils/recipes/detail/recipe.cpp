@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/nearest_names.h"
 #include "sublimit/stencils/recipes/detail/recipe_readers.h"
 

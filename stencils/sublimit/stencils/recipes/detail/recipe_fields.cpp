@@ -2,8 +2,8 @@
 // What readers of several kinds share.
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/patches/spline_curve.h"
 #include "sublimit/stencils/recipes/detail/recipe_readers.h"
 

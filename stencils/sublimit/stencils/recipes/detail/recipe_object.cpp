@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/core/detail/nearest_names.h"
 
 namespace sublimit {

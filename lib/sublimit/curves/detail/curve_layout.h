@@ -1,41 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Layout of refined curves: where the points of a level lie, and which point of the level before each comes from.
+// Layout of refined curves: where the points of a level lie, and which point of the level before each comes
+// from.
 //
 //   const CurveLayout layout(curve_scheme("chaikin"));
 //   const CurveOutline control = layout.control(5, false), next = layout.child(control);  // open, 5 points
 //   const auto [parent, mask] = layout.source(control, next, 3);
 //   const double t = layout.parameter(next, 1, 3);
 //
-// Positions are counted in half edges of their own level, so that they are whole numbers and double from level to
-// level; 0 is where the limit of an open curve starts. Points of a level are at
+// Positions are counted in half edges of their own level, so that they are whole numbers and double from level
+// to level; 0 is where the limit of an open curve starts. Points of a level are at
 //
 // - primal, kept ends: 0, 2, 4, ...; a point at X and the middle of its edge have the children 2X and 2X + 2
 // - dual, kept ends: 0, 1, 3, 5, ..., 2n - 4; the children of an inner point lie at 2X - 1 and 2X + 1
 // - free ends: -s, 2 - s, 4 - s, ...; the limit starts s/2 edges after the first point
-// - closed: X, X + 2, ..., modulo 2n; X = 0 for primal schemes and 2^(k+1) - 1 for dual ones; the children of a dual
+// - closed: X, X + 2, ..., modulo 2n; X = 0 for primal schemes and 2^(k+1) - 1 for dual ones; the children of a
+//   dual
 // scheme's edge a are 2a and 2a + 1
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <cstdlib>
 
-#include "sublimit/curves/check_curve_scheme.h"
+#include "sublimit/curves/curve_refine.h"
+#include "sublimit/curves/detail/check_curve_scheme.h"
 
 namespace sublimit {
 
-/// Largest number of points along the curve, or of their unknowns, that a mask may reach: far beyond any scheme.
+/// Largest number of points along the curve, or of their unknowns, that a mask may reach: far beyond any
+/// scheme.
 inline constexpr Index curve_reach = 1 << 16;
 
-/// A curve of a level without coordinates.
-struct CurveOutline {
-  Index size = 0;  ///< number of points
-  bool closed = false;
-  std::int64_t first = 0;  ///< position of the first point
-
-  bool operator==(const CurveOutline&) const = default;
-};
-
-/// Positions and children of the points of curves under a scheme, computed from its masks. It never changes: threads
-/// may share it.
+/// Positions and children of the points of curves under a scheme, computed from its masks. It never changes:
+/// threads may share it.
 class CurveLayout {
  public:
   /// Makes the layout of a scheme, for curves of level `level`.
@@ -71,7 +68,7 @@ class CurveLayout {
   bool is_dual() const { return dual_; }
   /// Returns the number of unknowns at every point: 1, or 2 for a Hermite scheme.
   int unknowns() const { return unknowns_; }
-  /// Returns how many points along the curve a slot of a stencil is away from the site's own.
+  /// Returns the distance of a stencil's slot from the site's own point, in points along the curve.
   int steps(Index slot) const { return (slot - (slot % unknowns_ + unknowns_) % unknowns_) / unknowns_; }
   /// True if end points stay where they are, and are points of the limit.
   bool keeps_ends() const { return kept_; }
@@ -118,8 +115,8 @@ class CurveLayout {
   }
   /// Returns the parameter of point `a` of level `number`, in edges of the control polygon.
   ///
-  /// Control point i has parameter i, and with kept ends in a dual scheme 0, 1/2, 3/2, ... A closed curve of n control
-  /// points has the parameters modulo n.
+  /// Control point i has parameter i, and with kept ends in a dual scheme 0, 1/2, 3/2, ... A closed curve of n
+  /// control points has the parameters modulo n.
   double parameter(const CurveOutline& c, int number, Index a) const;
 
   /// Origin of a point of the next level.

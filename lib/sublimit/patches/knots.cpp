@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/patches/knot_errors.h"
+#include "sublimit/patches/knots.h"
 
 #include <string>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 
 namespace sublimit {
 

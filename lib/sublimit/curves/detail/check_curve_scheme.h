@@ -9,7 +9,7 @@
 #include <string>
 
 #include "sublimit/curves/curve_scheme.h"
-#include "sublimit/scheme/check_scheme.h"
+#include "sublimit/scheme/detail/check_scheme.h"
 
 namespace sublimit {
 

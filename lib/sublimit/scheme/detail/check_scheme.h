@@ -12,8 +12,8 @@
 #include <string>
 #include <type_traits>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/base/format_number.h"
 #include "sublimit/scheme/scheme.h"
 
 namespace sublimit {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/scheme/check_scheme.h"
+#include "sublimit/scheme/detail/check_scheme.h"
 
 #include <initializer_list>
 #include <utility>
