@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sublimit/stencils/bake/detail/bake.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/eval/pattern_evaluator.h"
 #include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/schemes/schemes.h"

@@ -7,7 +7,7 @@
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/compare_with_opensubdiv.h"
 #include "support/dyadic_limits.h"
 #include "support/opensubdiv_limit_reference.h"

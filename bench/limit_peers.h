@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench_meshes.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit::bench {
 

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "limit_peers.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/schemes/schemes.h"
 
 namespace sublimit::bench {

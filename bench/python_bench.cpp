@@ -17,7 +17,7 @@
 #include "measuring.h"
 #include "bench_report.h"
 #include "sublimit/stencils/bake/detail/bake.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/eval/pattern_evaluator.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"

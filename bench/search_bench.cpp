@@ -20,7 +20,7 @@
 #include "measuring.h"
 #include "bench_report.h"
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"

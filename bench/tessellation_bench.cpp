@@ -21,7 +21,7 @@
 #include "opensubdiv_point.h"
 #include "opensubdiv_refiner.h"
 #include "bench_report.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/stencils/patterns/demo_mesh.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/tessellation/tessellate.h"

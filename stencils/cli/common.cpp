@@ -22,7 +22,7 @@
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 #include "sublimit/stencils/files/rule_of_word.h"
 #include "sublimit/stencils/files/sidecar.h"
 

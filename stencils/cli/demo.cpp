@@ -10,7 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/eval/table_file.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/stencils/bake/detail/table_info.h"
 #include "sublimit/stencils/files/level_files.h"

@@ -10,7 +10,7 @@
 #include "step_job.h"
 #include "sublimit/base/error.h"
 #include "sublimit/cad/limit_model.h"
-#include "sublimit/limit/limit_integrals.h"
+#include "sublimit/integrals/limit_integrals.h"
 
 namespace sublimit::cli {
 namespace {

@@ -36,7 +36,7 @@
 // The limit at any place: points, derivatives, normals, curvature, stencils. A place is (face, u, v), with u and v from
 // 0 to 1. Under schemes for triangles the face is a triangle of the mesh, and u + v at most 1. Under others it is a
 // face of the mesh if all are quadrilaterals; any other polygon counts as one square for each corner, as Ptex does
-// (limit/address.h):
+// (source/address.h):
 //
 //   const LimitSurface surface(mesh, "catmull-clark");
 //   const LimitSamples samples = surface.evaluate({{.face = 0, .u = 0.5, .v = 0.25}}, 2);
@@ -126,7 +126,7 @@
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/limit/limit.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/mesh/make_mesh.h"
 #include "sublimit/scheme/cubic_bspline_creases.h"
 #include "sublimit/scheme/refined_mesh.h"

@@ -43,7 +43,7 @@
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/eval/pattern_evaluator.h"
 #include "sublimit/stencils/patterns/pattern_file.h"

@@ -10,7 +10,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/schemes/schemes.h"

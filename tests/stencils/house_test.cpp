@@ -28,7 +28,7 @@ struct Floor {
 };
 const Floor floors[] = {
     {"lib/sublimit",
-     {"core", "mesh", "splits", "io", "scheme", "neighborhood", "limit", "tessellation", "geometric", "curves",
+     {"core", "mesh", "splits", "io", "scheme", "source", "neighborhood", "limit", "surface", "nets", "integrals", "tessellation", "geometric", "curves",
       "patches", "search", "cad", "schemes", "primvar", "fit", "implicit", "certificates"},
      {"subdivide.h"},
      "schemes"},
@@ -85,7 +85,7 @@ TEST(House, RoomsKnowThoseBelowThem) {
 /// Rooms of which nothing is installed: what is there is for us, as what is in a folder `detail`.
 bool is_own(const std::string& path) {
   static const std::regex own(
-      "/detail/|^lib/sublimit/(cad|curves/schemes|geometric|implicit/polygonize|neighborhood|patches/(constructions|joins)"
+      "/detail/|^lib/sublimit/(cad|curves/schemes|geometric|implicit/polygonize|neighborhood|nets|patches/(constructions|joins)"
       "|primvar|schemes|certificates/regularity)/|^eval/sublimit/eval/kernels/"
       "|^stencils/sublimit/(stencils/(files|fit_jobs|gallery|patterns|picture|shards)"
       "|report/(analysis|asset|free_form|page)|distributed)/");
@@ -198,8 +198,8 @@ const std::set<std::string> made_in_one_place{
 /// Where what is kept is a part of the argument, which is refused.
 const std::map<std::string, std::string> part_of{
     {"lib/sublimit/neighborhood/regular_faces.h: Topology", "Level"},
-    {"lib/sublimit/limit/detail/piece_parts.h: LimitMap::Parts", "LimitMap"},
-    {"lib/sublimit/limit/detail/limit_patches.h: LimitMap::Parts::Pieces", "LimitMap::Parts"},
+    {"lib/sublimit/nets/piece_parts.h: LimitMap::Parts", "LimitMap"},
+    {"lib/sublimit/surface/detail/limit_patches.h: LimitMap::Parts::Pieces", "LimitMap::Parts"},
 };
 
 // A reference to an argument that a header keeps, as a member or a pointer, has an overload for temporaries, deleted.

@@ -35,11 +35,11 @@ const MaySkip may_skip[] = {
      "run these",
      {"stencils/cli/cli_apply_test.cpp", "stencils/cli/cli_errors_test.cpp", "stencils/cli/cli_sample_test.cpp"}},
     {"the sanitizers have allocators of their own, which are not counted; other trees run these",
-     {"eval/allocation_test.cpp", "eval/gpu/failures_test.cpp", "lib/limit/limit_allocation_test.cpp",
+     {"eval/allocation_test.cpp", "eval/gpu/failures_test.cpp", "lib/surface/limit_allocation_test.cpp",
       "lib/limit/poles_test.cpp"}},
     {"half floats are a feature that a GPU may lack; lavapipe, which CI has, does not",
      {"eval/gpu/gpu_evaluator_test.cpp"}},
-    {"the largest shared meshes are for the full sweep (label full)", {"lib/limit/limit_map_truth_test.cpp"}},
+    {"the largest shared meshes are for the full sweep (label full)", {"lib/surface/limit_map_truth_test.cpp"}},
 };
 
 const std::filesystem::path tests = SUBLIMIT_SOURCE "/tests";

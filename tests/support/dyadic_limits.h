@@ -4,7 +4,7 @@
 // masks are exact. Of each level only the neighbourhood of the corner is made.
 #include <vector>
 
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/scheme/refine.h"
 

@@ -3,7 +3,7 @@
 // The limit surface anywhere, as truth for tests: the faces around a place, refined in 256-bit floats until the place
 // lies in a polynomial piece, whose spline is evaluated by recursion; without such pieces, until a face is smaller than
 // what matters. No limit masks, no eigenvectors, no blocks of S; only `next_level` and `subset`.
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/scheme/refine.h"
 #include "support/brute_force.h"
 #include "support/precise.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

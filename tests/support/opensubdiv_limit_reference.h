@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "support/opensubdiv_reference.h"
 
 namespace sublimit::testing {

@@ -4,7 +4,7 @@
 // and 256 bits hold every place on the way exactly. Topology only: indices of the splits, no masks.
 #include <span>
 
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/splits/split.h"
 #include "support/precise.h"
 

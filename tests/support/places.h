@@ -3,7 +3,7 @@
 // Places on a limit surface by what they are near to: random ones, on edges, towards vertices.
 #include <vector>
 
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit::testing {
 

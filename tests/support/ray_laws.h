@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/detail/closed_surface.h"
+#include "sublimit/integrals/detail/closed_surface.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/schemes/schemes.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "sublimit/limit/detail/piece_parts.h"
+#include "sublimit/nets/piece_parts.h"
 
 namespace sublimit {
 

@@ -13,7 +13,7 @@
 
 #include "sublimit/cad/cad_cells.h"
 #include "sublimit/cad/limit_quads.h"
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
 

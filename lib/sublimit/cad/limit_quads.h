@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "sublimit/limit/detail/piece_parts.h"
+#include "sublimit/nets/piece_parts.h"
 
 namespace sublimit {
 

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/limit/detail/quadrature.h"
+#include "sublimit/integrals/detail/quadrature.h"
 #include "sublimit/patches/detail/blossom.h"
 
 namespace sublimit {

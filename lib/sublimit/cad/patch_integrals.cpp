@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/limit/detail/quadrature.h"
+#include "sublimit/integrals/detail/quadrature.h"
 
 namespace sublimit {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "sublimit/limit/detail/limit_patches.h"
-#include "sublimit/limit/detail/place_numbers.h"
+#include "sublimit/surface/detail/limit_patches.h"
+#include "sublimit/nets/place_numbers.h"
 #include "sublimit/mesh/sharpness.h"
 #include "sublimit/patches/detail/blossom.h"
 

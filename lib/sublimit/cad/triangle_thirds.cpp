@@ -6,7 +6,7 @@
 
 #include "sublimit/cad/cad_cells.h"
 #include "sublimit/core/detail/binomial.h"
-#include "sublimit/limit/detail/triangle_blossom.h"
+#include "sublimit/nets/triangle_blossom.h"
 
 namespace sublimit {
 

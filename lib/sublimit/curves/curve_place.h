@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sublimit/core/types.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 
 namespace sublimit {
 

@@ -7,7 +7,7 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/curves/detail/curve_pieces.h"
 #include "sublimit/geometric/geometric_scheme.h"
-#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/source/detail/derivative_order.h"
 
 namespace sublimit {
 namespace {

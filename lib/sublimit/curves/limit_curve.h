@@ -25,7 +25,7 @@
 
 #include "sublimit/curves/curve_place.h"
 #include "sublimit/curves/curve_refine.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 
 namespace sublimit {
 

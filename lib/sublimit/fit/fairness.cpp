@@ -8,7 +8,7 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/limit/detail/quadrature.h"
+#include "sublimit/integrals/detail/quadrature.h"
 
 namespace sublimit {
 namespace {

@@ -11,7 +11,7 @@
 // depend on which corner of a face comes first, and the mesh after one step has the same membrane energy and a quarter
 // of the thin plate energy. Patches have parameters of their own.
 // Source: Halstead, Kass, DeRose 1993, "Efficient, fair interpolation using Catmull-Clark surfaces".
-#include "sublimit/limit/linear_source.h"
+#include "sublimit/source/linear_source.h"
 
 namespace sublimit {
 

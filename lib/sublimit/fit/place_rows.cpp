@@ -6,7 +6,7 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/fit/scattered_fit.h"
-#include "sublimit/limit/detail/why_outside.h"
+#include "sublimit/source/detail/why_outside.h"
 
 namespace sublimit {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sublimit/core/types.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/mesh/vertex_target.h"
 
 namespace sublimit {

@@ -11,7 +11,7 @@
 
 #include "sublimit/geometric/edge_cubic.h"
 #include "sublimit/geometric/parameter_jet.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 
 namespace sublimit {
 

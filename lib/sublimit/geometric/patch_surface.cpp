@@ -11,7 +11,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/geometric/nielson.h"
 #include "sublimit/geometric/piper.h"
-#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/scheme/detail/check_levels.h"
 #include "sublimit/splits/split.h"
 

@@ -3,7 +3,7 @@
 // Surfaces that are not linear in their data, already bound to data: the counterpart of LinearSource.
 #include <vector>
 
-#include "sublimit/limit/linear_source.h"
+#include "sublimit/source/linear_source.h"
 
 namespace sublimit {
 

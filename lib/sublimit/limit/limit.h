@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 #include "sublimit/scheme/any_scheme.h"
 #include "sublimit/scheme/refine.h"
 

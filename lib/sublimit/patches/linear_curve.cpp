@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/source/detail/derivative_order.h"
 
 namespace sublimit {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/source/detail/derivative_order.h"
 
 namespace sublimit {
 namespace {

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/limit/address.h"
-#include "sublimit/limit/limit_stencil.h"
+#include "sublimit/source/address.h"
+#include "sublimit/source/limit_stencil.h"
 #include "sublimit/patches/knots.h"
 #include "sublimit/patches/rational.h"
 

@@ -11,7 +11,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/signature_hash.h"
 #include "sublimit/core/detail/sparse_rows.h"
-#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/patches/detail/bezier_pieces.h"
 
 namespace sublimit {

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "sublimit/limit/linear_source.h"
+#include "sublimit/source/linear_source.h"
 #include "sublimit/patches/patch.h"
 
 namespace sublimit {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/surface/detail/limit_patches.h"
 
 namespace sublimit {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/limit/place_stencils.h"
+#include "sublimit/source/place_stencils.h"
 #include "sublimit/patches/patch_set.h"
 
 namespace sublimit {

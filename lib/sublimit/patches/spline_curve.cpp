@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/patches/spline_curve.h"
 
-#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/patches/detail/spline_rows.h"
 
 namespace sublimit {

@@ -11,7 +11,7 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/limit/detail/limit_cells.h"
+#include "sublimit/nets/limit_cells.h"
 #include "sublimit/patches/patches.h"
 #include "sublimit/search/detail/box_tree.h"
 #include "sublimit/search/detail/distance_bound.h"

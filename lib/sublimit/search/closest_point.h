@@ -25,7 +25,7 @@
 #include <span>
 #include <vector>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
 

@@ -8,7 +8,7 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/surface/detail/limit_patches.h"
 #include "sublimit/tessellation/detail/cell_polygon.h"
 #include "sublimit/tessellation/detail/cell_vertices.h"
 #include "sublimit/tessellation/detail/flat_cells.h"

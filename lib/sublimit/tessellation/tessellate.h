@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
 

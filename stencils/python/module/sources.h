@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/patches/patches.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"

@@ -17,7 +17,7 @@
 #include "gpus.h"
 #include "module.h"
 #include "sources.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
 #include "sublimit/sublimit.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "sublimit/distributed/spread_job.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit {
 

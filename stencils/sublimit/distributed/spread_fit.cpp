@@ -15,7 +15,7 @@
 #include "sublimit/distributed/spread_rows.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/io/detail/file_extension.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/stencils/files/npy.h"
 #include "sublimit/stencils/patterns/patterns.h"
 

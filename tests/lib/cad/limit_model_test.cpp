@@ -6,7 +6,7 @@
 #include <map>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/limit_integrals.h"
+#include "sublimit/integrals/limit_integrals.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"

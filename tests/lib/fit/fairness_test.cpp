@@ -10,7 +10,7 @@
 #include <random>
 
 #include "sublimit/core/detail/dense_decompositions.h"
-#include "sublimit/limit/detail/quadrature.h"
+#include "sublimit/integrals/detail/quadrature.h"
 #include "support/expect_error.h"
 #include "support/tested_schemes.h"
 #include "support/tolerance.h"

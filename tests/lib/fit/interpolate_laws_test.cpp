@@ -10,7 +10,7 @@
 #include <random>
 
 #include "sublimit/fit/detail/interpolate.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/neighborhood/centre.h"
 #include "support/expect_error.h"

@@ -7,7 +7,7 @@
 
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"

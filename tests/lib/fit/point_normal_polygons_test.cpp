@@ -8,7 +8,7 @@
 
 #include <random>
 
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"

@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
 #include "support/places.h"
 #include "support/tested_schemes.h"

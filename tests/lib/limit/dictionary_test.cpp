@@ -4,7 +4,7 @@
 
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/detail/limit_rows.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"

@@ -11,7 +11,7 @@
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/fit/detail/vertex_limits.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/neighborhood/control_place.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 #include "sublimit/scheme/detail/prepare.h"

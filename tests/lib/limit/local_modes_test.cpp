@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/tolerance.h"
 

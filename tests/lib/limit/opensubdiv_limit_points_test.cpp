@@ -6,7 +6,7 @@
 #include <random>
 
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/compare_with_opensubdiv.h"
 #include "support/irregular_meshes.h"
 #include "support/meshes.h"

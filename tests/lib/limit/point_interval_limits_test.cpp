@@ -6,7 +6,7 @@
 #include <random>
 
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/patches/spline_surface.h"
 #include "sublimit/schemes/schemes.h"

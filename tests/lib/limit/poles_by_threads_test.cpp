@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/full_sweep.h"
 #include "support/meshes.h"

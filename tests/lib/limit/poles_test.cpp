@@ -14,7 +14,7 @@
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/core/detail/submatrix.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/limit/detail/sparse_spectrum.h"
 #include "sublimit/limit/detail/tangents.h"
 #include "sublimit/neighborhood/closed_set.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/neighborhood/piece_types.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"

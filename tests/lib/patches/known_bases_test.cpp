@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/patches/constructions/lagrange_basis.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"
 #include "sublimit/patches/detail/finer_knots.h"

@@ -10,10 +10,10 @@
 #include <random>
 
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/limit/curvature.h"
+#include "sublimit/source/curvature.h"
 #include "sublimit/patches/detail/finer_knots.h"
 #include "sublimit/patches/spline_curve.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/classical_splines.h"
 #include "support/expect_error.h"

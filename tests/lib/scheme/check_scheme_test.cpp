@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/schemes/schemes.h"

@@ -16,7 +16,7 @@
 #include <random>
 
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/intersect.h"
 #include "support/meshes.h"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "sublimit/cad/limit_quads.h"
-#include "sublimit/limit/detail/limit_cells.h"
-#include "sublimit/limit/limit_integrals.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/nets/limit_cells.h"
+#include "sublimit/integrals/limit_integrals.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"

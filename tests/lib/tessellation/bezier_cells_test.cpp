@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/detail/net_derivatives.h"
+#include "sublimit/nets/net_derivatives.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 #include "support/tolerance.h"

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/limit_integrals.h"
+#include "sublimit/integrals/limit_integrals.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/tessellation/detail/edge_rates.h"
 #include "support/meshes.h"

@@ -8,7 +8,7 @@
 #include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/eval/detail/point_addresses.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"

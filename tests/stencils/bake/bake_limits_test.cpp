@@ -11,7 +11,7 @@
 #include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/limit/detail/limit_masks.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "support/expect_error.h"
 #include "support/shared_meshes.h"

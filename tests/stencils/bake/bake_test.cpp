@@ -14,7 +14,7 @@
 
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/eval/kernels/apply_patches.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/limit/detail/limit_masks.h"
 #include "sublimit/eval/pattern_evaluator.h"
 #include "sublimit/scheme/detail/prepare.h"

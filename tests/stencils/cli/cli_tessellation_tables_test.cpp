@@ -12,7 +12,7 @@
 #include "stencils/cli_tables.h"
 #include "sublimit/stencils/files/place_files.h"
 #include "sublimit/io/detail/ply.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/tolerance.h"
 

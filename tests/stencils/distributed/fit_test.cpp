@@ -13,7 +13,7 @@
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/ply.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/meshes.h"
 

@@ -17,7 +17,7 @@
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/stencils/gallery/patch_exhibits.h"
 #include "sublimit/stencils/gallery/patch_recipes.h"
-#include "sublimit/limit/linear_source.h"
+#include "sublimit/source/linear_source.h"
 #include "sublimit/stencils/recipes/detail/recipe.h"
 #include "support/tolerance.h"
 

@@ -18,7 +18,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/eval/gpu/gpu_evaluator.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/eval/pattern_evaluator.h"
 #include "support/face_varying_meshes.h"
 #include "support/free_form_shapes.h"

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/patches/patches.h"
 
 namespace sublimit {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sublimit/limit/detail/limit_cache.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 #include "sublimit/neighborhood/centre.h"
 #include "sublimit/scheme/refine.h"
 

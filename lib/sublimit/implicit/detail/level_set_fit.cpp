@@ -11,7 +11,7 @@
 #include "sublimit/fit/detail/tangent_rows.h"
 #include "sublimit/fit/fairness.h"
 #include "sublimit/fit/scattered_fit.h"
-#include "sublimit/limit/curvature.h"
+#include "sublimit/source/curvature.h"
 
 namespace sublimit {
 namespace {

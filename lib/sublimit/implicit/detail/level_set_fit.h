@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "sublimit/implicit/detail/cage.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit {
 

@@ -8,7 +8,7 @@
 #include "sublimit/core/detail/complex_decompositions.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/core/number.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 
 namespace sublimit {
 namespace {

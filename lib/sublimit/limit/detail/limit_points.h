@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sublimit/limit/detail/limit_cache.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 #include "sublimit/scheme/refine.h"
 
 namespace sublimit {

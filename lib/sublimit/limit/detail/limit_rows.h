@@ -6,7 +6,7 @@
 // neighbourhood becomes stationary.
 #include "sublimit/core/detail/sparse_rows.h"
 #include "sublimit/limit/detail/limit_cache.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 #include "sublimit/scheme/refine.h"
 
 namespace sublimit {

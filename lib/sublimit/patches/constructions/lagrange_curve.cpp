@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"
 #include "sublimit/patches/detail/spline_rows.h"
 

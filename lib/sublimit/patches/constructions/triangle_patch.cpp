@@ -9,7 +9,7 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_rows.h"
-#include "sublimit/limit/detail/triangle_blossom.h"
+#include "sublimit/nets/triangle_blossom.h"
 
 namespace sublimit {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/limit/detail/derivative_order.h"
+#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/patches/detail/spline_rows.h"
 
 namespace sublimit {

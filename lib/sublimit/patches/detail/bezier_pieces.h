@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "sublimit/limit/linear_source.h"
+#include "sublimit/source/linear_source.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/patches/spline_surface.h"
 

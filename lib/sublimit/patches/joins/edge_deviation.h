@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/patches/joins/join_orders.h"
 
 namespace sublimit {

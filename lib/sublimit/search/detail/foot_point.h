@@ -2,7 +2,7 @@
 #pragma once
 // Feet of perpendiculars: from a place on a surface downhill to one that is nearest to a point among its
 // neighbours on the same square or triangle.
-#include "sublimit/limit/linear_source.h"
+#include "sublimit/source/linear_source.h"
 #include "sublimit/search/detail/search_domain.h"
 
 namespace sublimit {

@@ -7,7 +7,7 @@
 // w = 1 of polynomials.
 #include <array>
 
-#include "sublimit/limit/detail/net_derivatives.h"
+#include "sublimit/nets/net_derivatives.h"
 
 namespace sublimit {
 

@@ -6,7 +6,7 @@
 #include <shared_mutex>
 #include <unordered_map>
 
-#include "sublimit/limit/detail/piece_parts.h"
+#include "sublimit/nets/piece_parts.h"
 
 namespace sublimit {
 

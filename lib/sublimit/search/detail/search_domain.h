@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit {
 

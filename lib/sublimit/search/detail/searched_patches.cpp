@@ -9,7 +9,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/binomial.h"
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/limit/detail/hull_cell.h"
+#include "sublimit/nets/hull_cell.h"
 #include "sublimit/patches/joins/patch_seams.h"
 
 namespace sublimit {

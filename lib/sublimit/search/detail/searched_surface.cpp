@@ -2,7 +2,7 @@
 #include "sublimit/search/detail/searched_surface.h"
 
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/limit/detail/closed_surface.h"
+#include "sublimit/integrals/detail/closed_surface.h"
 
 namespace sublimit {
 namespace {

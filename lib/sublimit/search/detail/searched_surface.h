@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/limit/detail/limit_cells.h"
-#include "sublimit/limit/detail/piece_parts.h"
-#include "sublimit/limit/limit_surface.h"
-#include "sublimit/limit/linear_source.h"
+#include "sublimit/nets/limit_cells.h"
+#include "sublimit/nets/piece_parts.h"
+#include "sublimit/surface/limit_surface.h"
+#include "sublimit/source/linear_source.h"
 
 namespace sublimit {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "sublimit/limit/detail/net_derivatives.h"
+#include "sublimit/nets/net_derivatives.h"
 
 namespace sublimit {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "sublimit/limit/detail/piece_parts.h"
+#include "sublimit/nets/piece_parts.h"
 
 namespace sublimit {
 

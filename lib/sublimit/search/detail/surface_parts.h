@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/limit/detail/piece_parts.h"
+#include "sublimit/nets/piece_parts.h"
 #include "sublimit/search/detail/box_tree.h"
 #include "sublimit/search/detail/piece_limits.h"
 #include "sublimit/search/detail/searched_surface.h"

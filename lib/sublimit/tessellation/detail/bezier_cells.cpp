@@ -12,7 +12,7 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/dense_decompositions.h"
-#include "sublimit/limit/detail/net_derivatives.h"
+#include "sublimit/nets/net_derivatives.h"
 
 namespace sublimit {
 namespace {

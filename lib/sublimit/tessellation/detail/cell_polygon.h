@@ -3,7 +3,7 @@
 // Convex polygons in the parameters of a face, cut into triangles.
 #include <vector>
 
-#include "sublimit/limit/detail/piece_parts.h"
+#include "sublimit/nets/piece_parts.h"
 #include "sublimit/tessellation/tessellate.h"
 
 namespace sublimit {

@@ -3,7 +3,7 @@
 // Points at corners of cells, by number, each with one of its places.
 #include <vector>
 
-#include "sublimit/limit/detail/place_numbers.h"
+#include "sublimit/nets/place_numbers.h"
 
 namespace sublimit {
 

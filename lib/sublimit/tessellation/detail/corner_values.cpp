@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/tessellation/detail/corner_values.h"
 
-#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/surface/detail/limit_patches.h"
 #include "sublimit/tessellation/detail/cell_vertices.h"
 
 namespace sublimit {

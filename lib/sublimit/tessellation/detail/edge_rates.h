@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit {
 

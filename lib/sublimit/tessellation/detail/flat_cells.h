@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "sublimit/limit/detail/piece_parts.h"
+#include "sublimit/nets/piece_parts.h"
 
 namespace sublimit {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/detail/limit_patches.h"
+#include "sublimit/surface/detail/limit_patches.h"
 #include "sublimit/tessellation/detail/cell_polygon.h"
 #include "sublimit/tessellation/detail/cell_vertices.h"
 #include "sublimit/tessellation/detail/edge_rates.h"

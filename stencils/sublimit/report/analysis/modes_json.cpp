@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/limit/curvature.h"
+#include "sublimit/source/curvature.h"
 #include "sublimit/limit/detail/limit_cache.h"
 
 namespace sublimit::report {

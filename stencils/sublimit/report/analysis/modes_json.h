@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "sublimit/limit/detail/local_modes.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {

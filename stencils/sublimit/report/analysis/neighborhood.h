@@ -7,7 +7,7 @@
 
 #include "sublimit/certificates/detail/c1_certificate.h"
 #include "sublimit/limit/detail/verdict.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/stencils/files/numbers.h"
 

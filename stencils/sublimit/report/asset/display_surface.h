@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // The limit as a mesh for pictures, with its curvature.
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/report/asset/curvature_statistics.h"
 
 namespace sublimit::asset {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Deviations of patches where they meet.
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/report/asset/seam_samples.h"
 
 namespace sublimit::asset {

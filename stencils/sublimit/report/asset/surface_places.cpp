@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/limit/curvature.h"
+#include "sublimit/source/curvature.h"
 #include "sublimit/report/asset/surface_places.h"
 
 #include <cmath>

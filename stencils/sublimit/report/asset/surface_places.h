@@ -2,7 +2,7 @@
 #pragma once
 // Places by corners of control faces instead of by addresses: the same way to say where, on triangles, quadrilaterals
 // and polygons.
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit::asset {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Vertices where the limit has no normal: not for want of a plane, but because the control points make it degenerate.
-#include "sublimit/limit/limit_surface.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/report/asset/inventory.h"
 
 namespace sublimit::asset {

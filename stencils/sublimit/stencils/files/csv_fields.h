@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sublimit/core/types.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit {
 

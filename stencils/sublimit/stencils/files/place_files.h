@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit {
 

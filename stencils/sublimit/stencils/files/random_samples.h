@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit {
 

@@ -8,8 +8,8 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
-#include "sublimit/limit/curvature.h"
-#include "sublimit/limit/detail/why_outside.h"
+#include "sublimit/source/curvature.h"
+#include "sublimit/source/detail/why_outside.h"
 #include "sublimit/stencils/files/csv_fields.h"
 
 namespace sublimit {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "sublimit/base/detail/atomic_file.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/stencils/files/csv_rows.h"
 #include "sublimit/stencils/files/patch_places.h"
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "sublimit/fit/targets.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/patches/patch_set.h"
 
 namespace sublimit {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "sublimit/limit/linear_source.h"
+#include "sublimit/source/linear_source.h"
 #include "sublimit/patches/constructions/spline_net.h"
 #include "sublimit/stencils/gallery/patch_data.h"
 #include "sublimit/stencils/picture/picture.h"

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "sublimit/io/detail/obj.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/patches/detail/interval_mesh.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/schemes/schemes.h"

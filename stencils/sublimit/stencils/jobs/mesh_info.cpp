@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "sublimit/base/error.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/stencils/files/rule_of_word.h"
 #include "sublimit/stencils/jobs/detail/mesh_info_json.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"

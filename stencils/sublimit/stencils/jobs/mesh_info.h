@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/limit/limit_integrals.h"
+#include "sublimit/integrals/limit_integrals.h"
 
 namespace sublimit {
 

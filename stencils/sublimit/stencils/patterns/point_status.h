@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 
 namespace sublimit {
 

@@ -6,7 +6,7 @@
 
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/eval/pattern_table.h"
-#include "sublimit/limit/detail/limit_map_parts.h"
+#include "sublimit/surface/detail/limit_map_parts.h"
 #include "sublimit/stencils/patterns/point_status.h"
 
 namespace sublimit {

@@ -12,7 +12,7 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/eval/detail/point_addresses.h"
-#include "sublimit/limit/limit_status.h"
+#include "sublimit/source/limit_status.h"
 
 namespace sublimit {
 namespace {

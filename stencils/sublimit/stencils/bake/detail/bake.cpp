@@ -8,7 +8,7 @@
 
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/stencils/bake/detail/bake_channels.h"
 #include "sublimit/stencils/bake/detail/bake_patterns.h"
 #include "sublimit/stencils/bake/detail/bake_rows.h"

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "sublimit/eval/baked_table.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/stencils/patterns/patterns.h"

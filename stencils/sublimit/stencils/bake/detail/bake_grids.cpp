@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "sublimit/base/detail/memory.h"
-#include "sublimit/limit/limit_map.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/stencils/bake/detail/bake_patterns.h"
 #include "sublimit/stencils/bake/detail/bake_rows.h"
 #include "sublimit/stencils/bake/detail/pattern_counts.h"

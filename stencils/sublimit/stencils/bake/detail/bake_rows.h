@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Tables by rows: any scheme, any request.
-#include "sublimit/limit/linear_source.h"
+#include "sublimit/source/linear_source.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 
 namespace sublimit {

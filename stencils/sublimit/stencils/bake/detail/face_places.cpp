@@ -2,7 +2,7 @@
 #include "sublimit/stencils/bake/detail/face_places.h"
 
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/limit/address.h"
+#include "sublimit/source/address.h"
 #include "sublimit/neighborhood/piece.h"
 
 namespace sublimit {
