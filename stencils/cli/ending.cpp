@@ -16,7 +16,7 @@
 #include "standard_streams.h"
 #include "sublimit/base/detail/temporaries.h"
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/detail/out_of_memory.h"
+#include "sublimit/certificates/numbers/detail/out_of_memory.h"
 
 namespace sublimit::cli {
 namespace {

@@ -95,7 +95,7 @@
 // A scheme of your own is a function of the number type. Its masks of vertices, edges and faces are expressions of the
 // points around them (scheme/sites.h); `double` makes meshes, exact numbers make the report:
 //
-//   #include <sublimit/certificates/algebraic.h>
+//   #include <sublimit/certificates/numbers/algebraic.h>
 //   template <class T>
 //   Scheme<T> mine() {
 //     const auto vertex = [](const Ring<T>& v) { return (v.center() + v.neighbor_mean()) / 2; };
@@ -126,7 +126,6 @@
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/limit/limit.h"
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/mesh/make_mesh.h"
 #include "sublimit/scheme/cubic_bspline_creases.h"
 #include "sublimit/scheme/refined_mesh.h"
@@ -137,6 +136,7 @@
 #include "sublimit/stencils/jobs/mesh_info.h"
 #include "sublimit/stencils/recipes/construct.h"
 #include "sublimit/stencils/recipes/implicit.h"
+#include "sublimit/surface/limit_surface.h"
 #include "sublimit/tessellation/tessellate.h"
 // Headers of components, included if the component is linked:
 #if __has_include("sublimit/report/report.h")

@@ -4,8 +4,8 @@
 //
 // Counted and failed is what this thread takes from malloc and its kin, so operator new and Eigen's too. Left out is
 // what oneTBB, FLINT, Arb, GMP and MPFR ask for: oneTBB's scheduler cannot go on without, and the others have no way
-// out but set_out_of_memory_handler (certificates/detail/out_of_memory.h). Under the address sanitizer, whose malloc it
-// is, operator new alone fails, and the sanitizer counts what is left.
+// out but set_out_of_memory_handler (certificates/numbers/detail/out_of_memory.h). Under the address sanitizer, whose
+// malloc it is, operator new alone fails, and the sanitizer counts what is left.
 #include <cstdint>
 
 namespace sublimit::testing {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/certificates/algebraic.h"
+#include "sublimit/certificates/numbers/algebraic.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Where limits have no normal for generic control points: a table with reasons. Exact verdicts prove rows about centres
-// that are their own children (certificates/lost_normals_test.cpp); laws expect no normals there, and normals
+// that are their own children (certificates/c1/lost_normals_test.cpp); laws expect no normals there, and normals
 // everywhere else.
 #include <string>
 #include <vector>

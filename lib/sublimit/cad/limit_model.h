@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A limit surface as a boundary representation: exact B-spline faces, as large as they can be, and caps around
+// Limit surfaces as boundary representations: exact B-spline faces, as large as possible, and caps around
 // extraordinary vertices.
 #include <functional>
 #include <string>
@@ -10,28 +10,30 @@
 
 namespace sublimit {
 
+/// Options of `limit_model`.
 struct LimitModelOptions {
-  double tolerance = 0;        ///< of caps: largest distance from the limit, > 0
-  bool join_smoothly = false;  ///< as `LimitQuadOptions` has it
-  bool pack = true;
-  Mesh::FaceNames face_names = {};  ///< of the mesh, to be those of faces: only faces of one name are packed
-  std::int64_t max_faces = std::int64_t{1} << 17;
+  double tolerance = 0;             ///< largest distance of caps from the limit, > 0
+  bool join_smoothly = false;       ///< see `LimitQuadOptions`
+  bool pack = true;                 ///< true: merge quads into larger faces
+  Mesh::FaceNames face_names = {};  ///< names of the mesh's faces; only faces of the same name are merged
+  std::int64_t max_faces = std::int64_t{1} << 17;  ///< largest number of faces of the model
   std::function<void(const std::string& what)> progress;
 };
 
+/// A model with its statistics.
 struct LimitModel {
   BoundaryModel boundary;
-  std::int64_t quads = 0, caps = 0;  ///< before packing; caps among them
-  double deviation = 0;              ///< of caps from the limit, measured
-  bool met = true;                   ///< the tolerance
+  std::int64_t quads = 0, caps = 0;  ///< number of quads before packing, and of caps among them
+  double deviation = 0;              ///< measured deviation of caps from the limit
+  bool met = true;                   ///< true if all caps are within the tolerance
   QuadMeasures measures;
 };
 
-/// Makes the model of a surface without its holes. The result does not depend on the number of threads.
-/// @param points  of the level, #V x 3
-/// @throws InvalidParameter, UnsupportedTopology  as `limit_quads`
-/// @throws InvalidParameter  names that are not one for each face of the mesh
-/// @throws ResourceError  more faces than allowed
+/// Returns the model of a surface without its holes. The result does not depend on the number of threads.
+/// @param points  points of the surface's level, #V x 3
+/// @throws InvalidParameter, UnsupportedTopology  see `limit_quads`
+/// @throws InvalidParameter  another number of names than faces of the mesh
+/// @throws ResourceError     more than `max_faces` faces
 LimitModel limit_model(const LimitMap& surface, const Points& points, const LimitModelOptions& options);
 
 }  // namespace sublimit

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A limit surface as four-sided Bezier patches: polynomial cells exactly, rings of them around extraordinary vertices,
-// and a fitted cap for what is left in the middle of the rings, once it is near enough to the limit.
+// Limit surfaces as four-sided Bezier patches: exact patches for polynomial cells, in rings around
+// extraordinary vertices, and a fitted cap for the rest in the middle of the rings, once it is close enough to
+// the limit.
 //
-// A triangle of degree d becomes three patches of bidegree d, which meet in its middle: a bilinear map of the square
-// onto a third of the triangle keeps polynomials.
+// A triangle of degree d becomes three patches of bidegree d, which meet in its middle: a bilinear map of the
+// square onto a third of the triangle preserves polynomials.
 #include <functional>
 #include <vector>
 
@@ -12,17 +13,18 @@
 
 namespace sublimit {
 
+/// A four-sided patch.
 struct LimitQuad {
   Index address = 0;
-  CellCorners cell;  ///< that it is in
+  CellCorners cell;  ///< cell that it is in
   std::int64_t cell_number = 0;
-  int third = -1;                                  ///< of a triangle: the corner that it is at
-  std::array<std::array<double, 2>, 4> corners{};  ///< in the address, counter-clockwise
-  double size = 1;                                 ///< of its sides, in edges of the mesh
+  int third = -1;                                  ///< corner of the triangle of which it is a third; -1: none
+  std::array<std::array<double, 2>, 4> corners{};  ///< (u, v) in the address, counter-clockwise
+  double size = 1;                                 ///< length of its sides, in edges of the mesh
   int degree = 1;
   Points net = {};  ///< Bernstein coefficients, the second parameter fastest
   bool is_exact = true;
-  double volume = 0;  ///< that it adds to what a closed surface bounds, once measured
+  double volume = 0;  ///< contribution to the volume of a closed surface, set by `measure`
 
   /// Returns the address's parameters of a place in the quad's own parameters.
   Place place(double s, double t) const {
@@ -33,23 +35,25 @@ struct LimitQuad {
   }
 };
 
+/// Options of `limit_quads`.
 struct LimitQuadOptions {
-  double tolerance = 0;        ///< of caps, > 0
-  bool join_smoothly = false;  ///< caps and their exact neighbours, with common tangent planes; of squares
-  int most_rings = 14;         ///< around an extraordinary vertex
+  double tolerance = 0;        ///< largest distance of caps from the limit, > 0
+  bool join_smoothly = false;  ///< give caps common tangent planes with their exact neighbours; only for squares
+  int most_rings = 14;         ///< largest number of rings around an extraordinary vertex
   std::function<void(int round)> progress;
 };
 
+/// All patches of a surface.
 struct LimitQuads {
   std::vector<LimitQuad> quads;
-  double deviation = 0;   ///< largest distance of points of caps from the limit, measured
-  std::int64_t caps = 0;  ///< fitted quads
-  bool met = true;        ///< the tolerance
+  double deviation = 0;   ///< largest measured distance of points of caps from the limit
+  std::int64_t caps = 0;  ///< number of fitted quads
+  bool met = true;        ///< true if the deviation is within the tolerance
 };
 
 /// Returns the quads of a surface without its holes.
-/// @param points  of the level, #V x 3
-/// @throws InvalidParameter     points that do not fit
+/// @param points  points of the surface's level, #V x 3
+/// @throws InvalidParameter     points of another shape
 /// @throws UnsupportedTopology  a scheme without polynomial pieces, pieces that are cut along a diagonal or whose
 ///                              children are no quarters
 LimitQuads limit_quads(const LimitMap& surface, const Points& points, const LimitQuadOptions& options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Quads packed into rectangles: as many as one B-spline with simple knots holds, never across a sharp edge,
-// nor of different names.
+// Packing of quads into rectangles that are one B-spline with simple knots each, never across sharp edges or
+// between different names.
 #include <vector>
 
 #include "sublimit/cad/boundary_model.h"
@@ -9,24 +9,24 @@
 
 namespace sublimit {
 
-/// A rotated quad: its corner `turn` is the lower left one.
+/// A rotated quad, whose corner `turn` is the lower left one.
 struct TurnedQuad {
   Index quad = -1;
   int turn = 0;
   bool operator==(const TurnedQuad&) const = default;
 };
 
-/// Quads of the rectangle, row by row from below, each from the left.
+/// A rectangle of quads: rows from below, each from the left.
 using QuadRectangle = std::vector<std::vector<TurnedQuad>>;
 
-/// Every quad is in one of them.
-/// @param pack   else each is alone
-/// @param names  numbers, a quad each: those of a rectangle have the same; empty: any may be together
+/// Returns rectangles that contain each quad once.
+/// @param pack   false: one rectangle per quad
+/// @param names  a number per quad: quads of a rectangle have the same number; empty: no restriction
 std::vector<QuadRectangle> quad_rectangles(const std::vector<LimitQuad>& quads, const QuadEdges& edges, bool pack,
                                            const std::vector<Index>& names = {});
 
-/// Faces of rectangles, in their order, with shared edges: those that follow each other smoothly along the same two
-/// faces are one.
+/// Returns a model with a face for each rectangle, in order, and shared edges. Consecutive smooth edges between
+/// the same two faces are merged.
 BoundaryModel boundary_model(const std::vector<LimitQuad>& quads, const QuadEdges& edges,
                              const std::vector<QuadRectangle>& rectangles);
 

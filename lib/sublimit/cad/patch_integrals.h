@@ -5,13 +5,15 @@
 
 namespace sublimit {
 
+/// Results of `surface_integrals`.
 struct SurfaceIntegrals {
   double area = 0;
-  double volume = 0;  ///< signed: positive where du x dv looks away from the apex
+  double volume = 0;  ///< signed: positive where du x dv points away from the apex
 };
 
-/// Integrates by Gauss's rule on each face, whose volumes are exact if the surface is not rational.
-/// @param apex  of the cone whose volume it is; of closed surfaces it does not matter
+/// Returns area, and volume of the cone from a point over the surface, by a Gauss rule on each face. The volume
+/// is exact up to rounding if the surface is not rational.
+/// @param apex  apex of the cone; irrelevant for closed surfaces
 SurfaceIntegrals surface_integrals(const SplineSurface& surface, const Points& columns, Coordinates coordinates,
                                    const Eigen::RowVector3d& apex);
 

@@ -6,9 +6,10 @@
 
 namespace sublimit {
 
-/// @param mesh   checked
-/// @param name   of all patches
-/// @param place  of the mesh, for messages
+/// Returns the patches.
+/// @param mesh   checked mesh
+/// @param name   name of all patches
+/// @param place  place of the mesh, for messages
 std::vector<NamedPatch> piper_patches(const NormalMesh& mesh, const std::string& name, const std::string& place);
 
 }  // namespace sublimit

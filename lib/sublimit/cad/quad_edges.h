@@ -1,40 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Edges of four-sided patches: the parts of their sides between the corners of all patches that lie on them, each of
-// them shared, by connectivity.
+// Edges of four-sided patches: the parts of sides between the corners of all patches on them. They are shared
+// by connectivity.
 #include <vector>
 
 #include "sublimit/cad/limit_quads.h"
 
 namespace sublimit {
 
-/// A part of a quad's side, 0 to 3 counter-clockwise, along the border from `begin` to `end`, 0 to 1.
+/// The part from `begin` to `end` of a side of a quad. Sides 0 to 3 are counter-clockwise; the parameter along
+/// each is 0 to 1.
 struct QuadSide {
   Index quad = 0;
   int side = 0;
   double begin = 0, end = 1;
-  bool reversed = false;  ///< against the edge
+  bool reversed = false;  ///< true if the side runs against the edge
 };
 
+/// An edge.
 struct QuadEdge {
   Index start = 0, end = 0;  ///< vertices
   std::vector<QuadSide> uses = {};
   Points net = {};         ///< Bernstein coefficients
-  double length = 0;       ///< in edges of the mesh
-  double gap = 0;          ///< of the sides that use it, once measured
-  bool is_sharp = false;   ///< an infinitely sharp edge of the mesh, or a border
-  bool is_smooth = false;  ///< two exact quads of the same size, whose B-spline has a simple knot there
+  double length = 0;       ///< length in edges of the mesh
+  double gap = 0;          ///< distance from its sides, set by `measure`
+  bool is_sharp = false;   ///< true on an infinitely sharp edge of the mesh, or a border
+  bool is_smooth = false;  ///< true between two exact quads of equal size that are one B-spline with a simple knot here
 };
 
+/// All edges of quads.
 struct QuadEdges {
   std::vector<QuadEdge> edges;
   std::vector<std::array<std::vector<Index>, 4>> sides;  ///< edges of each quad's sides, along its border
   Points vertices;
 };
 
+/// Returns the edges of the quads of a surface.
 QuadEdges quad_edges(const LimitMap& surface, const std::vector<LimitQuad>& quads);
 
-/// Row of a net by local indices of a quad that is rotated so that its corner `turn` is the first one.
+/// Returns the row in the net of coefficient (i, j) of the quad rotated such that corner `turn` is the first
+/// one.
 inline Eigen::Index turned_row(int degree, int turn, int i, int j) {
   const int d = degree;
   switch (turn & 3) {
@@ -49,7 +54,7 @@ inline Eigen::Index turned_row(int degree, int turn, int i, int j) {
   }
 }
 
-/// Returns the parameters in the quad of a place on its side.
+/// Returns the parameters in the quad of a place on a side.
 inline std::array<double, 2> on_side(int side, double along) {
   switch (side) {
     case 0:

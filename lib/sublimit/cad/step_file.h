@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// `step` of opencascade/step.h without OpenCASCADE: models and files are made here, and what makes bytes of a model is
-// an argument. A program that loads OpenCASCADE when it is wanted gives what it has loaded.
+// Implementation of `step` (opencascade/step.h) without a dependency on OpenCASCADE: this makes models and
+// writes files, and the function that converts a model to bytes is an argument. Programs that load OpenCASCADE
+// on demand pass the loaded function.
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -11,20 +12,20 @@
 
 namespace sublimit {
 
-/// Makes the bytes of a file, as `cad_file`.
+/// Function that converts a model to the bytes of a file, see `cad_file`.
 using CadFileMaker = std::function<CadFile(const BoundaryModel& model, const std::string& name, bool step)>;
 
-/// Checks what `step` checks before any work.
+/// Checks path and options, as `step` does before any work.
 /// @throws InvalidOption     another extension than .step, .stp or .brep
 /// @throws InvalidParameter  a tolerance that is not positive
 void check_step(const std::filesystem::path& path, const StepOptions& options);
 
-/// Writes a limit surface, as `step`.
+/// Writes a limit surface, see `step`.
 /// @param make  called once, with the finished model
-/// @throws as `step`, and what `make` throws
+/// @throws the errors of `step` and of `make`
 StepFile write_step(const LimitSurface& surface, const std::filesystem::path& path, const StepOptions& options,
                     const CadFileMaker& make);
-/// Writes classical patches, as `step`.
+/// Writes classical patches, see `step`.
 StepFile write_step(const Patches& patches, const std::filesystem::path& path, const StepOptions& options,
                     const CadFileMaker& make);
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "sublimit/certificates/algebraic.h"
+#include "sublimit/certificates/numbers/algebraic.h"
 #include "sublimit/scheme/scheme.h"
 
 namespace sublimit::python {

@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/algebraic.h"
+#include "sublimit/certificates/numbers/algebraic.h"
 #include "sublimit/scheme/sites.h"
 
 namespace sublimit::python {

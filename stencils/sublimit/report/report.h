@@ -5,7 +5,7 @@
 //
 //   analyze("loop", {.valences = {3, 5}}).save_html("loop.html");
 //   analyze(read_mesh("torus.obj"), "loop", {.tolerance = {"g1=0.1deg"}}).save_json("torus.json");
-//   analyze(mine<double>(), mine<Algebraic>()).save_html("mine.html");  // <sublimit/certificates/algebraic.h>
+//   analyze(mine<double>(), mine<Algebraic>()).save_html("mine.html");  // <sublimit/certificates/numbers/algebraic.h>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -49,7 +49,7 @@ struct AnalyzeOptions {
 /// @throws InvalidParameter  no valences, or one outside its range
 Report analyze(const AnyScheme& scheme, const AnalyzeOptions& options = {});
 /// Returns a report on a scheme of your own.
-/// @param exact  the scheme's masks in exact numbers (<sublimit/certificates/algebraic.h>)
+/// @param exact  the scheme's masks in exact numbers (<sublimit/certificates/numbers/algebraic.h>)
 /// @throws InvalidParameter  masks that differ between both, or are incomplete; and as above
 Report analyze(const Scheme<double>& scheme, const Scheme<Algebraic>& exact, const AnalyzeOptions& options = {});
 

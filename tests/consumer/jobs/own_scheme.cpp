@@ -1,5 +1,5 @@
 // A scheme of one's own, with its report.
-#include <sublimit/certificates/algebraic.h>
+#include <sublimit/certificates/numbers/algebraic.h>
 #include <sublimit/sublimit.h>
 
 using namespace sublimit;

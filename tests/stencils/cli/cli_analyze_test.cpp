@@ -8,7 +8,7 @@
 
 #include "stencils/cli_program.h"
 #include "stencils/summary_rows.h"
-#include "sublimit/certificates/algebraic.h"
+#include "sublimit/certificates/numbers/algebraic.h"
 #include "sublimit/io/detail/obj.h"
 #include "support/meshes.h"
 

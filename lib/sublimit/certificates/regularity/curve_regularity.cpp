@@ -9,7 +9,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
-#include "sublimit/limit/detail/for_all.h"
+#include "sublimit/certificates/spectra/for_all.h"
 
 namespace sublimit {
 namespace {

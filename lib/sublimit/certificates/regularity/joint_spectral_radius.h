@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/certificates/detail/ball_matrix.h"
+#include "sublimit/certificates/numbers/detail/ball_matrix.h"
 
 namespace sublimit {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sublimit/certificates/regularity/rational_number.h"
+#include "sublimit/certificates/numbers/detail/rational_number.h"
 
 namespace sublimit {
 

@@ -2,8 +2,8 @@
 #pragma once
 // The registries' schemes and local matrices in rational numbers, instantiated once: saves every file that uses
 // them the instantiation. Also conversion of regular masks from algebraic numbers.
-#include "sublimit/certificates/algebraic.h"
-#include "sublimit/certificates/regularity/rational_number.h"
+#include "sublimit/certificates/numbers/algebraic.h"
+#include "sublimit/certificates/numbers/detail/rational_number.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/neighborhood/regular_mask.h"
 #include "sublimit/schemes/schemes.h"

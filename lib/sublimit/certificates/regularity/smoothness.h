@@ -9,7 +9,7 @@
 
 #include "sublimit/certificates/regularity/joint_spectral_radius.h"
 #include "sublimit/certificates/regularity/rational_matrix.h"
-#include "sublimit/limit/detail/verdict.h"
+#include "sublimit/certificates/spectra/verdict.h"
 
 namespace sublimit {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sublimit/certificates/regularity/difference_space.h"
-#include "sublimit/limit/detail/for_all.h"
+#include "sublimit/certificates/spectra/for_all.h"
 
 namespace sublimit {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/detail/polynomial.h"
+#include "sublimit/certificates/numbers/detail/polynomial.h"
 
 namespace sublimit {
 

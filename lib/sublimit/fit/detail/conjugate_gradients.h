@@ -9,20 +9,20 @@
 
 namespace sublimit {
 
-/// Solves S u = right from u = 0; S is symmetric, positive semidefinite.
-/// @param S         S * p
-/// @param diagonal  of the preconditioner, >= 0, about as large as S; where it is zero u stays zero, whatever
-///                  remains there
-/// @param residual  right; what remains of it in the end
+/// Solves S u = right from u = 0, where S is symmetric and positive semidefinite.
+/// @param S         returns S * p
+/// @param diagonal  diagonal preconditioner, >= 0, of about the size of S; entries of u where it is zero stay
+///                  zero
+/// @param residual  on entry the right-hand side, on return the residual right - S u
 /// @param go_on     called after each iteration with its number and the largest entry of the residual; false stops
 /// @return  u
 Points conjugate_gradients(const std::function<Points(const Points&)>& S, const Eigen::VectorXd& diagonal,
                            Points& residual, const std::function<bool(int, double)>& go_on);
 
-/// Solves min |C u - gap| from u = 0, by the normal equations: C^T is applied to what remains of the gap, whose digits
-/// C^T C would lose. All steps lie in the range of C^T.
+/// Solves min |C u - gap| from u = 0 by conjugate gradients for least squares: C^T is applied to the residual
+/// gap, which is more accurate than forming C^T C. All steps lie in the range of C^T.
 /// Source: Bjorck 1996, "Numerical methods for least squares problems", section 7.4.
-/// @param gap    what remains of it in the end
+/// @param gap    on entry the right-hand side, on return the residual gap - C u
 /// @param go_on  called after each iteration with its number and the largest entries of the gap and of C^T gap
 Points least_squares_gradients(const SparseMatrix& C, const SparseMatrix& Ct, Points& gap,
                                const std::function<bool(int, double, double)>& go_on);

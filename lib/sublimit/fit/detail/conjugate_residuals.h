@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Generalised conjugate residuals: of all combinations of the steps so far the one with the least residual, channel by
-// channel. The steps come from a factorised matrix near to the true one, so a few are enough.
+// Generalised conjugate residuals: the combination of all steps so far with the least residual, per channel.
+// Steps come from a factorised approximation of the matrix, so a few are enough.
 // Source: Eisenstat, Elman, Schultz 1983, "Variational iterative methods for nonsymmetric systems of linear equations".
 #include <vector>
 
@@ -9,19 +9,22 @@
 
 namespace sublimit {
 
+/// The steps so far.
 class ConjugateResiduals {
  public:
   explicit ConjugateResiduals(std::size_t memory = 30) : memory_(memory) {}
 
-  /// @param step   of the unknowns, and what it takes from the residual; both are overwritten
-  /// @return  how far to go along `step`, by channel
+  /// Orthogonalises a step against earlier ones and stores it.
+  /// @param step    step of the unknowns; overwritten by the orthogonalised step
+  /// @param effect  matrix * step, which the step takes from the residual; overwritten likewise
+  /// @return  step length along `step` per channel
   Eigen::RowVectorXd add(const Points& residual, Points& step, Points& effect) {
     for (const Pair& p : past_) {
       const Eigen::RowVectorXd along = effect.cwiseProduct(p.effect).colwise().sum();
       effect -= p.effect * along.asDiagonal();
       step -= p.step * along.asDiagonal();
     }
-    // A step that takes next to nothing is rounding, and would be made large.
+    // A step whose effect is negligible is rounding, and normalising would amplify it.
     const Eigen::RowVectorXd whole = residual.colwise().norm();
     Eigen::RowVectorXd length = effect.colwise().norm();
     for (Eigen::Index c = 0; c < length.size(); ++c) length[c] = length[c] > worth * whole[c] ? 1 / length[c] : 0;

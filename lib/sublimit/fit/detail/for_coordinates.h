@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A matrix that acts on every coordinate alike, as one on all coordinates of all points, interleaved (x, y, z of the
+// Expansion of a matrix over points to one over all coordinates of all points, interleaved (x, y, z of the
 // first point, ...).
 #include <limits>
 
@@ -9,7 +9,8 @@
 
 namespace sublimit {
 
-/// @throws ResourceError  more entries than 32-bit indices
+/// Returns M applied to each of three interleaved coordinates: 3 #rows x 3 #columns.
+/// @throws ResourceError  more entries than 32-bit indices count
 inline SparseMatrix for_coordinates(const SparseMatrix& M) {
   if (3 * std::max<Eigen::Index>(M.nonZeros(), std::max(M.rows(), M.cols())) > std::numeric_limits<Index>::max())
     throw ResourceError(

@@ -7,23 +7,23 @@
 
 namespace sublimit {
 
-/// Factors of a positive definite matrix, by supernodes without pivoting (Eigen::SparseLU, many times faster here than
-/// its Cholesky factors).
+/// Supernodal factors of a positive definite matrix, without pivoting (Eigen::SparseLU, here many times faster
+/// than Eigen's Cholesky factors).
 class SparseFactors {
  public:
   /// @param M  symmetric; both halves are stored
-  /// @throws ResourceError  factors larger than memory, predicted before they are made
+  /// @throws ResourceError  factors larger than memory, predicted before they are computed
   explicit SparseFactors(const SparseMatrix& M);
   ~SparseFactors();
   SparseFactors(SparseFactors&&) noexcept;
   SparseFactors& operator=(SparseFactors&&) noexcept;
 
-  /// True if no pivot was zero and an even number of them negative.
+  /// True if no pivot was zero, and the number of negative ones is even.
   bool positive() const;
   /// Returns M^-1 * right, n x channels.
   /// @throws AnalysisError  there are no factors: a pivot was zero, or memory ran out
   Points solve(const Points& right) const;
-  double nonzeros() const;  ///< of one triangle, the diagonal included
+  double nonzeros() const;  ///< nonzeros of one triangle, including the diagonal
 
  private:
   struct Factors;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Coordinates in which targets lie around the origin and have size 1: rows of limits sum to 1, so fits move along, and
-// tolerances have a meaning.
+// Coordinates in which targets are around the origin and have size 1, so that tolerances are meaningful. Since
+// rows of limits sum to 1, fits commute with this map.
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +9,7 @@
 
 namespace sublimit {
 
+/// Origin and unit of the coordinates.
 struct UnitFrame {
   Eigen::RowVectorXd origin;
   double unit = 1;
@@ -16,7 +17,7 @@ struct UnitFrame {
   Points outside(const Points& points) const { return (points * unit).rowwise() + origin; }
 };
 
-/// Returns the frame of the targets' box; of the mesh's box if that is a point.
+/// Returns the frame of the bounding box of the targets, or of that of the mesh if the targets are one point.
 inline UnitFrame unit_frame(const std::vector<VertexTarget>& targets, const Points& mesh) {
   Points at(static_cast<Index>(targets.size()), 3);
   for (size_t i = 0; i < targets.size(); ++i) at.row(i) = targets[i].position;

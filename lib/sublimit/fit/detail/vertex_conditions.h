@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Targets at vertices as linear conditions on control points, and how far control points are from meeting them.
+// Targets at vertices as linear conditions on control points, and their residuals.
 #include <map>
 
 #include "sublimit/fit/detail/vertex_limits.h"
@@ -8,35 +8,38 @@
 
 namespace sublimit {
 
-/// Tangents that a side is to have, as columns: tangent1, tangent2. Stronger than a normal, whose rows hold for the
-/// opposite one too.
+/// Prescribed tangents of a side, as columns: tangent1, tangent2. Stronger than a normal, whose conditions also
+/// hold for the opposite normal.
 using TangentFrame = Eigen::Matrix<double, 3, 2>;
 
-/// C x = d. Points alone: a row per target over the points, a column of d per coordinate. With normals: three rows per
-/// target and two per side (six with a frame) over all coordinates of all points, interleaved (x, y, z of the first
-/// point, ...), and one column.
+/// The conditions C x = d. Without normals: a row per target over the points, and a column of d per coordinate.
+/// With normals: three rows per target and two per side (six with a frame) over all coordinates of all points,
+/// interleaved (x, y, z of the first point, ...), and one column.
 struct VertexConditions {
   SparseMatrix C;
   Points d;
-  bool coupled = false;              ///< with normals
-  std::vector<Index> without_plane;  ///< targets whose normal is left out: no tangent plane, or only holes
+  bool coupled = false;              ///< true with normals
+  std::vector<Index> without_plane;  ///< targets whose normal is ignored: no tangent plane, or only holes
 };
-/// @param limits   of the targets' vertices, in their order
-/// @param targets  normals of unit length
-/// @param frames   by number of the side: conditions in place of its normal's
+/// Returns the conditions of targets.
+/// @param limits   limits of the targets' vertices, in their order
+/// @param targets  targets with unit normals
+/// @param frames   by number of a side: tangents to prescribe instead of its normal
 VertexConditions vertex_conditions(const VertexLimits& limits, const std::vector<VertexTarget>& targets,
                                    const std::map<Index, TangentFrame>& frames = {});
 
-/// Vertices with a side whose normal is more than a right angle off: all their sides, with the frames that `guess` has
-/// there, turned to the target's normal together and laid into its plane; where these do not lie to one side, those
-/// sides alone.
+/// Returns frames for vertices that have a side whose normal is off by more than a right angle. All sides of
+/// the vertex get the frames of `guess`, rotated together to the normal of the target and projected into its
+/// plane; if these frames are not all on one side, only the wrong sides get them.
 std::map<Index, TangentFrame> turned_frames(const VertexLimits& limits, const std::vector<VertexTarget>& targets,
                                             const Points& points, const Points& guess);
 
+/// Deviations from targets.
 struct VertexErrors {
-  Eigen::VectorXd position;  ///< distance, by target
-  Eigen::VectorXd normal;    ///< radians, by target, the largest of its sides; NaN where there is none
+  Eigen::VectorXd position;  ///< distance by target
+  Eigen::VectorXd normal;    ///< radians by target, largest of its sides; NaN without a normal
 };
+/// Returns the deviations of given control points.
 VertexErrors vertex_errors(const VertexLimits& limits, const std::vector<VertexTarget>& targets, const Points& points);
 
 }  // namespace sublimit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Boxes in a binary tree, each node with a box around those below it, to be searched from the nearest on.
+// Binary trees of boxes, each node with a box around those below it, for searches from the nearest box on.
 #include <Eigen/Geometry>
 
 #include <vector>
@@ -9,18 +9,21 @@
 
 namespace sublimit {
 
+/// A tree of boxes.
 class BoxTree {
  public:
   BoxTree() = default;
-  /// Halves of the boxes by the longest side of their centres' extent; equal input, equal tree.
+  /// Makes the tree by recursively halving the set of boxes along the longest side of the extent of their
+  /// centres. Deterministic.
   explicit BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes);
 
+  /// A node.
   struct Node {
     Eigen::AlignedBox3d box;
-    Index first_child = -1;  ///< the other one follows it
-    Index item = -1;         ///< of a leaf: number of its box
+    Index first_child = -1;  ///< first child; the second one follows it; -1: a leaf
+    Index item = -1;         ///< for a leaf: index of its box
   };
-  /// The root first; none without boxes.
+  /// Returns all nodes, the root first; empty if there are no boxes.
   const std::vector<Node>& nodes() const { return nodes_; }
 
  private:

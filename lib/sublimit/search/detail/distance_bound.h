@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How near a surface is to a point at least: proved, by branch and bound on its parts.
+// Proved lower bounds of the distance of a point from a surface, by branch and bound on its parts.
 //
 // The distance of a polynomial or rational part is at least that of its box, and at least min (b - q) n over its
-// Bernstein coefficients b for any unit vector n. Where intervals of their differences show that |x - q|^2 is convex on
-// the part, the tangent plane of its graph at the minimum is below it, so that the minimum itself is the bound, but for
-// rounding. Other parts, towards extraordinary vertices, are in the hull of the points that they depend on, and are
-// replaced by their children.
+// Bernstein coefficients b for any unit vector n. If intervals of their differences show that |x - q|^2 is
+// convex on the part, the tangent plane of its graph at the minimum is below it, so that the minimum itself is
+// a bound up to rounding. Other parts, near extraordinary vertices, lie in the convex hull of the points that
+// they depend on, and are replaced by their children.
 #include <optional>
 #include <span>
 
@@ -15,22 +15,25 @@
 
 namespace sublimit {
 
+/// Result of a proof.
 struct [[nodiscard]] ProvedDistance {
   double lower = 0;             ///< no point of the surface is nearer; 0: nothing is proved
-  std::optional<Place> closer;  ///< a place that is nearer than was said; `lower` is what had been proved by then
+  std::optional<Place> closer;  ///< a place nearer than the given distance; `lower` is the bound when it was found
 };
 
+/// Lower bounds for a surface.
 class DistanceBound {
  public:
-  /// @param surface  which may go; what a `SearchedLimit` is of has to stay
+  /// @param surface  needed during construction only; the map or patches that it refers to must outlive this
   explicit DistanceBound(const SearchedSurface& surface) : parts_(surface) {}
 
-  /// @param distance  of the nearest point that is known
-  /// @param most      parts to look at; what is left then counts with its box
-  /// @param cutter    of the calling thread
-  /// @param without   faces (of `Place`) that do not count
-  /// @note  Any thread may ask. Where hulls are estimates, as of schemes without polynomials, or faces have no
-  ///        parts, nothing is proved.
+  /// Returns a bound for a point. Threads may call it at the same time.
+  /// @param distance  distance of the nearest known point
+  /// @param most      largest number of parts to examine; the rest is bounded by boxes
+  /// @param cutter    belongs to the calling thread
+  /// @param without   faces (of `Place`) to ignore
+  /// @note  Nothing is proved if hulls are estimates, as for schemes without polynomials, or faces have no
+  ///        parts.
   ProvedDistance operator()(const Eigen::Vector3d& query, double distance, int most, PieceParts& cutter,
                             std::span<const Index> without = {}) const;
 

@@ -1,32 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Feet of perpendiculars: from a place on a surface downhill to one that is nearest to a point among its
-// neighbours on the same square or triangle.
+// Foot points: local minimisation of the distance from a point, starting at a place on a surface, on the same
+// square or triangle.
 #include "sublimit/source/linear_source.h"
 #include "sublimit/search/detail/search_domain.h"
 
 namespace sublimit {
 
+/// A foot point.
 struct Foot {
   Place place;
   double squared_distance = 0;
 };
 
-/// Newton's method on half the square of the distance, with the exact derivatives; where second ones do not exist,
-/// with what first ones tell of them (BFGS). Steps are halved until they go down, and end at the sides, along which the
-/// search goes on. At places without derivatives it starts once more from close by, then goes by trying.
+/// Newton's method on half the squared distance with exact derivatives, or BFGS if second derivatives do not
+/// exist. Steps are halved until the distance decreases. They end at the sides, along which the search
+/// continues. At places without derivatives the search restarts once from nearby, then continues without
+/// derivatives.
 class FootSearch {
  public:
-  /// @param surface    which must stay
+  /// @param surface    must outlive this
   /// @param triangles  whether faces are triangles
-  /// @param size       of the surface: steps of 1e-14 of it are none
+  /// @param size       size of the surface; steps up to 1e-14 of it count as zero
   FootSearch(const BoundSource& surface, bool triangles, double size)
       : surface_(surface), triangles_(triangles), tiny_(1e-14 * size) {}
   FootSearch(const BoundSource&&, bool, double) = delete;
 
-  /// @param domain   where to look, `start` in it
-  /// @param order    of derivatives that the surface has, 2 or 1; set to 1 if it turns out so
-  /// @param nearest  square of a distance: what is farther is not tried to the end
+  /// Returns a foot point.
+  /// @param domain   domain of the search; contains `start`
+  /// @param order    order of derivatives of the surface, 2 or 1; set to 1 if second ones turn out not to exist
+  /// @param nearest  squared distance of the best known point; the search may end early if its result is
+  ///                 farther
   Foot operator()(const Eigen::Vector3d& point, const Place& start, const SearchDomain& domain, int& order,
                   double nearest);
 
@@ -34,7 +38,7 @@ class FootSearch {
   struct State;
   State at(const Eigen::Vector3d& point, const Place& place, int order);
   void descend(const Eigen::Vector3d& point, const SearchDomain& domain, State& state, int& order, bool along_side);
-  /// Downhill without derivatives, by steps in eight directions.
+  /// Descends without derivatives, by steps in eight directions.
   void probe(const Eigen::Vector3d& point, State& state, int& order);
   static Eigen::Vector2d direction(const State& state, const SearchDomain& domain, bool along_side);
 

@@ -2,41 +2,42 @@
 #pragma once
 // Bounds on the distance of a point from a polynomial or rational part, by its Bernstein coefficients.
 //
-// Half of |x - q|^2 is (|X - w q|^2 / w^2) / 2 of a rational part x = X / w. Where h = (|X - w q|^2 - d^2 w^2) / 2, a
-// polynomial, is not below 0, no point is nearer than d; so both are the same quadratic form of coefficients, d = 0 and
-// w = 1 of polynomials.
+// For a rational part x = X / w let h = (|X - w q|^2 - d^2 w^2) / 2, a polynomial. If h >= 0, no point is
+// nearer to q than d. For polynomial parts, with w = 1 and d = 0, h is half of |x - q|^2.
 #include <array>
 
 #include "sublimit/nets/net_derivatives.h"
 
 namespace sublimit {
 
-/// h is convex on all of the part: what its smallest value proves, and where it is.
+/// Minimum of h on a part on which h is convex.
 struct ConvexMinimum {
-  double lower = 0;            ///< of the distance
-  double at = 0;               ///< the distance of the place
-  std::array<double, 2> uv{};  ///< of the part
+  double lower = 0;            ///< proved lower bound of the distance
+  double at = 0;               ///< distance of the place of the minimum
+  std::array<double, 2> uv{};  ///< parameters of this place in the part
 };
 
+/// A part relative to a point q.
 class NetDistance {
  public:
-  /// @param basis     which must stay
-  /// @param net       as `PiecePart` has them
-  /// @param rounding  of differences of points and q
+  /// @param basis     must outlive this
+  /// @param net       a net of a `PiecePart`
+  /// @param query     the point q
+  /// @param rounding  bound of rounding errors in differences of points and q
   NetDistance(const PolynomialBasis& basis, const Points& net, const Eigen::Vector3d& query, double rounding);
   NetDistance(const PolynomialBasis&&, const Points&, const Eigen::Vector3d&, double) = delete;
   /// Returns a lower bound on the distance of the hull from q.
-  /// @param towards  a unit vector: the bound is close if it points from q to the nearest place
+  /// @param towards  a unit vector; the bound is tight if it points from q to the nearest place
   double lower(const Eigen::Vector3d& towards) const;
-  /// Nothing where intervals do not show that there is one minimum.
-  /// @param distance  of a rational part: the d above, which is to be proved
+  /// Returns the minimum of h; nothing unless intervals prove that h is convex.
+  /// @param distance  for rational parts: the d above
   std::optional<ConvexMinimum> convex_minimum(double distance) const;
 
  private:
   bool is_rational() const { return net_.cols() == 4; }
 
   const PolynomialBasis& basis_;
-  Points net_;  // X - w q, and w of rational ones
+  Points net_;  // X - w q, and for rational parts w
   double rounding_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Limits all over a piece that is no polynomial: what rays see of it. Rows are made once a type, and shared by threads.
+// Limits on a grid over a piece without a polynomial, for ray tracing. Rows are computed once per type and
+// shared by threads.
 #include <array>
 #include <memory>
 #include <shared_mutex>
@@ -10,7 +11,7 @@
 
 namespace sublimit {
 
-/// Places of a piece in steps of its sides, ends included: by v, then by u.
+/// A regular grid of places of a piece, including its sides; ordered by v, then by u.
 struct PieceGrid {
   static constexpr int steps = 4;
   bool triangle = false;
@@ -20,17 +21,18 @@ struct PieceGrid {
   Eigen::Index row(int i, int j) const {
     return triangle ? j * (steps + 1) - j * (j - 1) / 2 + i : j * (steps + 1) + i;
   }
-  /// Rows of the corners, counter-clockwise; the last one of triangles means nothing.
+  /// Returns the rows of the corners, counter-clockwise. The last one of triangles is unused.
   std::array<Eigen::Index, 4> corners() const {
     return triangle ? std::array<Eigen::Index, 4>{row(0, 0), row(steps, 0), row(0, steps), 0}
                     : std::array<Eigen::Index, 4>{row(0, 0), row(steps, 0), row(steps, steps), row(0, steps)};
   }
 };
 
+/// Cache of the rows of limits, by type.
 class PieceLimits {
  public:
-  /// The limits of a piece at the places of its grid; no rows where one of them diverges.
-  /// @param points  of the piece, by slot
+  /// Returns the limits of a piece at the places of its grid; no rows if one of them diverges.
+  /// @param points  points of the piece, by slot
   Points at(const PieceType& type, const Points& points) const;
 
  private:

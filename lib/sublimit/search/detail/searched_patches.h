@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Classical patches as searches see them: each face a Bezier net, polynomial or rational.
+// Classical patches for searches: each face as a polynomial or rational Bezier net.
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit {
 
-/// Nets are raised to one degree in both directions, and cut in quarters until their weights are positive. Faces that
-/// are no polynomials (screw, gregory with twists that differ) have no parts, nor has what is near to a pole: nearest
-/// points are found there from a grid of places, nothing is proved of any face, and rays are refused.
+/// Patches as a searched surface. Nets are elevated to the same degree in both directions, and quartered until
+/// their weights are positive. Faces that are not polynomial or rational (screw, gregory with different twists)
+/// have no parts, nor do regions near a pole. Nearest points are found there from a grid of places; if there
+/// are such faces, nothing is proved for any face, and rays are refused.
 class SearchedPatches : public SearchedSurface {
  public:
-  /// @param patches  which must stay
-  /// @param columns  of the set
+  /// @param patches  must outlive this
+  /// @param columns  control columns of the set
   /// @throws InvalidParameter  columns of another size, or not finite
   SearchedPatches(const PatchSet& patches, const Points& columns);
   SearchedPatches(const PatchSet&&, const Points&) = delete;
@@ -21,7 +22,8 @@ class SearchedPatches : public SearchedSurface {
   std::vector<LimitCell> cells() const override;
   void find_parts(Index face, PieceParts&, std::vector<PiecePart>& out) const override;
   std::string without_parts() const override { return without_parts_; }
-  /// Closed are B-splines each of whose sides is another one's, or is a point; all their normals look to one side.
+  /// Patches are closed if they are B-splines, each side is shared with another one or collapsed, and normals
+  /// are oriented consistently.
   std::string why_not_closed() const override;
 
  private:
@@ -31,8 +33,8 @@ class SearchedPatches : public SearchedSurface {
   const PatchSet& patches_;
   Points columns_;
   std::unique_ptr<BoundSource> samples_;
-  std::vector<std::vector<PiecePart>> parts_;      ///< by faces
-  std::vector<std::vector<CellCorners>> sampled_;  ///< of faces, what is no part
+  std::vector<std::vector<PiecePart>> parts_;      ///< parts by face
+  std::vector<std::vector<CellCorners>> sampled_;  ///< cells without parts, by face
   std::string without_parts_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a search in space asks of a surface with its points, whatever it is: limits of schemes (`SearchedLimit`),
-// patches (`SearchedPatches`).
+// Interface of surfaces for searches in space, implemented by limits of schemes (`SearchedLimit`) and patches
+// (`SearchedPatches`).
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +13,7 @@
 
 namespace sublimit {
 
+/// A surface with its points.
 class SearchedSurface {
  public:
   virtual ~SearchedSurface() = default;
@@ -20,28 +21,29 @@ class SearchedSurface {
   SearchedSurface& operator=(const SearchedSurface&) = delete;
 
   virtual FaceCount faces() const = 0;
-  /// Points, derivatives and normals; any thread may ask.
+  /// Returns the evaluator of points, derivatives and normals. Thread-safe.
   virtual const BoundSource& samples() const = 0;
-  /// Cells of all of it but holes, by faces: where searches begin.
+  /// Returns cells that cover the surface except for holes, by face. Searches start from them.
   virtual std::vector<LimitCell> cells() const = 0;
-  /// The parts that a face consists of are added to `out`; any thread may ask.
-  /// @param cutter  of the calling thread
+  /// Appends the parts of a face to `out`. Thread-safe.
+  /// @param cutter  belongs to the calling thread
   virtual void find_parts(Index face, PieceParts& cutter, std::vector<PiecePart>& out) const = 0;
-  /// A face that has no parts though it is no hole, and why; empty if all have.
+  /// Returns which face has no parts although it is no hole, and why; empty if all have.
   virtual std::string without_parts() const { return {}; }
-  /// Why it bounds no solid; empty if it does.
+  /// Returns why the surface does not bound a solid; empty if it does.
   virtual std::string why_not_closed() const = 0;
 
  protected:
   SearchedSurface() = default;
 };
 
+/// A limit surface.
 class SearchedLimit : public SearchedSurface {
  public:
   /// @throws InvalidParameter  points beyond 1e150
   explicit SearchedLimit(const LimitSurface& surface);
-  /// @param points  of the map's level, #V x 3
-  /// @throws InvalidParameter  points that do not fit, or beyond 1e150
+  /// @param points  points of the map's level, #V x 3
+  /// @throws InvalidParameter  points of another shape, or beyond 1e150
   SearchedLimit(const LimitMap& map, const Points& points) : SearchedLimit(LimitSurface(map, points)) {}
   FaceCount faces() const override { return surface_.faces(); }
   const BoundSource& samples() const override { return surface_; }
@@ -52,7 +54,7 @@ class SearchedLimit : public SearchedSurface {
  private:
   LimitSurface surface_;
   AddressPieces pieces_;
-  int levels_;  // that are looked into at once
+  int levels_;  // levels into which pieces are divided at once
 };
 
 }  // namespace sublimit

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A part of a surface as a ray sees it: a map to the plane across the ray, whose zeros are hits.
+// Intersection of a ray with a part of a surface: in coordinates of the ray the part maps to the plane across
+// the ray, and hits are zeros of this map.
 #include <Eigen/Dense>
 
 #include <optional>
@@ -10,84 +11,86 @@
 
 namespace sublimit {
 
-/// How far outside of a part a zero may be for the neighbour to have it, beside what counts as on the ray.
+/// Distance in parameters by which a zero outside a part still counts, in addition to the slack of the ray; the
+/// neighbour reports the hit otherwise.
 inline constexpr double beyond_part = 1e-12;
-/// Slack at the line u = v of a part that is cut along it: both halves may report a hit there.
+/// Slack at the line u = v of a part that is cut along it. Both halves may report a hit there.
 inline constexpr double beyond_half = 1e-9;
 
 /// A ray as an origin and three axes, the last one along it.
 struct RayFrame {
   Eigen::Vector3d origin;
-  Eigen::Matrix3d axes;  ///< rows
-  double length = 1;     ///< of the direction
+  Eigen::Matrix3d axes;  ///< axes as rows
+  double length = 1;     ///< length of the ray's direction
   RayFrame(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
   /// Returns a net in the coordinates of the ray.
   Points seen(const Points& net) const;
 };
 
-/// Where a part is hit, if that is one place at most.
+/// The place at which a part is hit, if there is at most one.
 struct SeenZero {
   enum class Kind { none, one, unknown } kind;
   Eigen::Vector2d uv = Eigen::Vector2d::Zero();
   double s = 0;      ///< distance along the ray
-  double reach = 0;  ///< how far off that may be
-  int side = 0;      ///< of the surface that the ray sees: 1 or -1; 0 where that turns over
+  double reach = 0;  ///< error bound of s
+  int side = 0;      ///< side of the surface that is hit: 1 or -1; 0 if it changes here
 };
 
-/// A stretch of the ray along which a part is as near to it as counts as a hit.
+/// An interval of the ray along which a part is so close to it that it counts as a hit.
 struct SeenStrip {
   double low = 0, high = 0;  ///< distances along the ray
   Eigen::Vector2d uv = Eigen::Vector2d::Zero();
 };
 
-/// A point of the part's domain, the square or the triangle.
+/// Returns the nearest point of the domain, the square or the triangle.
 Eigen::Vector2d nearest_inside(const Eigen::Vector2d& p, bool triangle);
 
-/// The middle of the angle, below 180 degrees, that points of the plane across the ray are in; nothing if they are in
-/// none: their hull holds the ray.
+/// Returns the middle direction of the angle below 180 degrees that contains points in the plane across the
+/// ray; nothing if there is no such angle, that is, their convex hull contains the ray.
 std::optional<Eigen::Vector2d> facing(const Eigen::Matrix<double, Eigen::Dynamic, 2>& points);
 
 /// True if a remaining step at a place of the domain is negligible.
-/// @param off  by u, by v
+/// @param off  negligible size by u, and by v
 bool is_none(const Eigen::Vector2d& step, const Eigen::Vector2d& off, bool triangle);
 
-/// No line through the ray has all of these points on one side, of those across the middle of their angle and a few
-/// more.
-/// @param points  seen along the ray: x, y, s and, of rational ones, a positive weight
+/// True if none of a few lines through the ray, among them that across the middle of their angle, has all
+/// points on one side.
+/// @param points  in the coordinates of the ray: x, y, s and, if rational, a positive weight
 bool can_be_hit(const Points& points, double slack);
 
-/// The stretch that points span which all lie in a strip along the ray, as wide as counts as a hit and much longer, if
-/// they reach over the ray; else nothing.
+/// Returns the interval spanned by points that all lie in a narrow strip along the ray, as wide as counts as a
+/// hit and much longer, if they extend over the ray; else nothing.
 /// @param corners  rows of points that are on the surface
-/// @param within   how far from the points the surface may be
+/// @param within   largest distance of the surface from the points
 std::optional<SeenStrip> strip_of(const Points& points, std::span<const Eigen::Index> corners, double within,
                                   double slack);
 
+/// A polynomial or rational part in the coordinates of a ray.
 class SeenNet {
  public:
-  /// @param basis  which must stay
-  /// @param net    seen along a ray
+  /// @param basis  must outlive this
+  /// @param net    net in the coordinates of the ray (RayFrame::seen)
   SeenNet(const PolynomialBasis& basis, Points net) : basis_(basis), net_(std::move(net)) {}
   SeenNet(const PolynomialBasis&&, Points) = delete;
 
-  /// No line through the ray has all of it on one side.
-  /// @param slack  how far off counts as a hit
+  /// False if a line through the ray has the whole net on one side.
+  /// @param slack  largest distance that counts as a hit
   bool can_be_hit(double slack) const { return sublimit::can_be_hit(net_, slack); }
-  /// Returns where the ray meets a part over its domain, the square or the triangle, if that is one place at most.
-  /// @param slack  how far off counts as a hit
+  /// Returns the place at which the ray meets the part, if there is at most one.
+  /// @param slack  largest distance that counts as a hit
   SeenZero zero(double slack) const;
 
-  /// A side on the ray: a point, as poles and apexes are, or a line.
+  /// A side on the ray: a point, as a pole or apex, or a line.
   struct Side {
     SeenStrip strip;
-    double reach = 0;  ///< how far off the distances may be
-    int side = 0;      ///< as of zeros, next to a point
+    double reach = 0;  ///< error bound of the distances
+    int side = 0;      ///< as SeenZero::side, next to a point
   };
-  /// A side on the ray if all else of the part leads away from it: the map is a power of the distance from the side,
-  /// times a net that is on one side of the ray.
+  /// Returns a side on the ray, if the rest of the part leads away from it: the map is a power of the distance
+  /// from the side times a net on one side of the ray.
   std::optional<Side> side_on_ray(double slack) const;
   std::optional<SeenStrip> strip(double slack) const;
-  /// How far lines along u and along v go across the ray, at most, and in space.
+  /// Upper bounds of the lengths of lines along u and along v.
   struct Lengths {
     double u = 0, v = 0;
   };

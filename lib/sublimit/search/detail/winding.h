@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What is inside a closed surface: how often it winds around a point, counted where a ray from there leaves it
-// and comes back (intersect.h misses no hit).
+// Winding numbers of a closed surface around points, counted along a ray from the point by the sides of its
+// hits (intersect.h misses no hit).
 #include <vector>
 
 #include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit {
 
-/// 0 outside, 1 inside, -1 inside a surface whose normals look inwards; others where it intersects itself. Of points on
-/// the surface either side's. Where rays may miss hits, as of schemes without polynomials (intersect.h), an estimate.
-/// @throws InvalidParameter     points that do not fit, or are not finite
-/// @throws UnsupportedTopology  a surface that is not closed: says where
-/// @throws AnalysisError        a point from which rays of all directions were given up
+/// Returns the winding number around each point: 0 outside, 1 inside, -1 inside a surface with inward normals;
+/// other values if the surface intersects itself. For points on the surface it is that of either side. The
+/// result is an estimate if rays may miss hits, as for schemes without polynomials (intersect.h).
+/// @throws InvalidParameter     queries of another shape, or not finite
+/// @throws UnsupportedTopology  a surface that is not closed; says where
+/// @throws AnalysisError        a point from which no ray could be decided
 std::vector<int> winding_numbers(const SearchedSurface& surface, const Points& queries);
 
 }  // namespace sublimit

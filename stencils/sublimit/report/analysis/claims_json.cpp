@@ -10,7 +10,8 @@
 #include <tuple>
 #include <vector>
 
-#include "sublimit/limit/detail/for_all.h"
+#include "sublimit/certificates/spectra/for_all.h"
+#include "sublimit/report/analysis/verdict_json.h"
 
 namespace sublimit::report {
 namespace {

@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 
 #include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/certificates/spectra/local_modes.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/limit/detail/local_modes.h"
 #include "sublimit/report/analysis/neighborhood.h"
 
 namespace sublimit::report {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sublimit/limit/detail/knot_spectrum.h"
+#include "sublimit/certificates/spectra/knot_spectrum.h"
 
 namespace sublimit::report {
 namespace {

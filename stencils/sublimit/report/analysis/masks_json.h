@@ -2,7 +2,7 @@
 #pragma once
 // `masks` of a neighbourhood: decimals from the limit that surfaces are evaluated with, and the exact numbers beside
 // them.
-#include "sublimit/certificates/detail/exact_masks.h"
+#include "sublimit/certificates/spectra/exact_masks.h"
 #include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sublimit/source/curvature.h"
 #include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/source/curvature.h"
 
 namespace sublimit::report {
 namespace {

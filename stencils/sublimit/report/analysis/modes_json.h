@@ -4,9 +4,9 @@
 // surface of generic data and the convergence of its normals.
 #include <memory>
 
-#include "sublimit/limit/detail/local_modes.h"
-#include "sublimit/surface/limit_map.h"
+#include "sublimit/certificates/spectra/local_modes.h"
 #include "sublimit/stencils/files/numbers.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit::report {
 

@@ -8,15 +8,16 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/detail/dart.h"
-#include "sublimit/certificates/detail/spectral_verdicts.h"
-#include "sublimit/certificates/detail/witness.h"
+#include "sublimit/certificates/spectra/dart.h"
+#include "sublimit/certificates/spectra/for_all.h"
+#include "sublimit/certificates/spectra/spectral_verdicts.h"
+#include "sublimit/certificates/witness/witness.h"
 #include "sublimit/limit/detail/eigen_structure.h"
-#include "sublimit/limit/detail/for_all.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/report/analysis/masks_json.h"
 #include "sublimit/report/analysis/modes_json.h"
 #include "sublimit/report/analysis/spectrum_json.h"
+#include "sublimit/report/analysis/verdict_json.h"
 #include "sublimit/scheme/detail/check_scheme.h"
 
 namespace sublimit::report {

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/certificates/detail/c1_certificate.h"
-#include "sublimit/limit/detail/verdict.h"
-#include "sublimit/surface/limit_map.h"
+#include "sublimit/certificates/c1/c1_certificate.h"
+#include "sublimit/certificates/spectra/verdict.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/stencils/files/numbers.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit::report {
 

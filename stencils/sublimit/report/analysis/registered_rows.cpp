@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/detail/exact_schemes.h"
+#include "sublimit/certificates/spectra/exact_schemes.h"
 #include "sublimit/report/analysis/registered_rows.h"
 
 #include <fmt/core.h>

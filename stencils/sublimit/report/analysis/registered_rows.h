@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "sublimit/certificates/algebraic.h"
+#include "sublimit/certificates/numbers/algebraic.h"
 #include "sublimit/neighborhood/regular_mask.h"
 #include "sublimit/scheme/scheme.h"
 
@@ -22,7 +22,7 @@ struct ExactScheme {
 /// The registry's scheme of this name; nothing if there is none, or none with these options or one mask.
 std::optional<ExactScheme> registered_scheme(const std::string& name, const SchemeOptions& options);
 
-/// Returns what differs between a witness of C^1 (certificates/detail/witness.h), which the checker has accepted, and
+/// Returns what differs between a witness of C^1 (certificates/witness/witness.h), which the checker has accepted, and
 /// the scheme; "" if nothing does.
 std::string differs_from(const ExactScheme& exact, const nlohmann::ordered_json& witness);
 

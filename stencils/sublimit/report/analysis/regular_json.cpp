@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/detail/exact_schemes.h"
+#include "sublimit/certificates/spectra/exact_schemes.h"
 #include "sublimit/report/analysis/regular_json.h"
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
 #include "sublimit/report/analysis/claims_json.h"
+#include "sublimit/report/analysis/verdict_json.h"
 
 namespace sublimit::report {
 namespace {

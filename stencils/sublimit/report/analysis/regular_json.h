@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // REGULAR, SWEEP and CURVE of report.json.
-#include "sublimit/certificates/algebraic.h"
+#include "sublimit/certificates/numbers/algebraic.h"
 #include "sublimit/certificates/regularity/curve_joints.h"
 #include "sublimit/certificates/regularity/surface_regularity.h"
 #include "sublimit/certificates/regularity/sweep.h"

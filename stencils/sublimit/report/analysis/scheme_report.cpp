@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/certificates/detail/exact_schemes.h"
+#include "sublimit/certificates/spectra/exact_schemes.h"
 #include "sublimit/report/analysis/scheme_report.h"
 
 #include <fmt/core.h>
@@ -11,11 +11,12 @@
 
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/detail/all_valences.h"
+#include "sublimit/certificates/c1/all_valences.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/knot_json.h"
 #include "sublimit/report/analysis/neighborhood.h"
 #include "sublimit/report/analysis/regular_json.h"
+#include "sublimit/report/analysis/verdict_json.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit::report {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/certificates/algebraic.h"
+#include "sublimit/certificates/numbers/algebraic.h"
 #include "sublimit/scheme/scheme.h"
 
 namespace sublimit::report {

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/detail/c1_certificate.h"
+#include "sublimit/certificates/c1/c1_certificate.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
 #include "sublimit/report/analysis/claims_json.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // `spectrum` and what follows from it: lambda, mu, their ratio, and the blocks that have mu.
-#include "sublimit/certificates/detail/exact_spectrum.h"
+#include "sublimit/certificates/spectra/exact_spectrum.h"
 #include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {

@@ -11,7 +11,7 @@
 
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/detail/witness.h"
+#include "sublimit/certificates/witness/witness.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/registered_rows.h"
 #include "sublimit/report/analysis/seen_again.h"

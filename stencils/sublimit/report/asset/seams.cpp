@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/limit/detail/for_all.h"
+#include "sublimit/certificates/spectra/for_all.h"
 
 namespace sublimit::asset {
 namespace {

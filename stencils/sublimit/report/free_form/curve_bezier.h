@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "sublimit/certificates/regularity/rational_number.h"
+#include "sublimit/certificates/numbers/detail/rational_number.h"
 #include "sublimit/io/free_form.h"
 #include "sublimit/patches/joins/seam_strips.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/certificates/regularity/rational_number.h"
+#include "sublimit/certificates/numbers/detail/rational_number.h"
 #include "sublimit/patches/joins/seam_strips.h"
 #include "sublimit/stencils/recipes/detail/recipe.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sublimit/certificates/detail/exact_joins.h"
+#include "sublimit/certificates/c1/exact_joins.h"
 
 namespace sublimit {
 namespace {

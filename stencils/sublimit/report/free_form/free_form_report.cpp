@@ -9,9 +9,9 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/detail/exact_joins.h"
+#include "sublimit/certificates/c1/exact_joins.h"
+#include "sublimit/certificates/spectra/for_all.h"
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/limit/detail/for_all.h"
 #include "sublimit/patches/joins/line_samples.h"
 
 namespace sublimit {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/detail/exact_joins.h"
+#include "sublimit/certificates/c1/exact_joins.h"
 #include "sublimit/report/free_form/exact_net.h"
 #include "sublimit/stencils/recipes/detail/net_file.h"
 

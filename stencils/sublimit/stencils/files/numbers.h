@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Numbers and verdicts in report.json. What is drawn is rounded; what is stated is not.
+// Numbers in report.json. What is drawn is rounded; what is stated is not.
 #include <nlohmann/json.hpp>
 
-#include "sublimit/limit/detail/verdict.h"
 #include "sublimit/neighborhood/sector_labels.h"
 
 namespace sublimit::report {
@@ -17,7 +16,6 @@ Json stated(double value);
 Json point(double x, double y);
 Json point(double x, double y, double z);
 Json to_json(const SectorLabel& label);
-Json to_json(const Verdict& verdict);
 
 /// Returns the first entries of every report.
 Json report_head(const std::string& kind);

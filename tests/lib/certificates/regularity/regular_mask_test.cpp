@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/certificates/detail/exact_schemes.h"
+#include "sublimit/certificates/spectra/exact_schemes.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
 #include "support/tolerance.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The regular part, sweeps and curves in report.json.
-#include "sublimit/certificates/detail/exact_schemes.h"
+#include "sublimit/certificates/spectra/exact_schemes.h"
 #include "sublimit/report/analysis/regular_json.h"
 
 #include <gtest/gtest.h>
