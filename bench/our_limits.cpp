@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "limit_peers.h"
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit::bench {
 namespace {

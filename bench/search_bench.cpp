@@ -20,10 +20,10 @@
 #include "measuring.h"
 #include "bench_report.h"
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit::bench {
 namespace {

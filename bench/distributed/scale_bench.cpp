@@ -16,7 +16,7 @@
 #include <random>
 
 #include "sublimit/base/error.h"
-#include "sublimit/distributed/shard_jobs.h"
+#include "sublimit/distributed/jobs/shard_jobs.h"
 #include "sublimit/eval/pattern_evaluator.h"
 
 namespace {

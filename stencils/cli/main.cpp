@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "command_line.h"
-#include "common.h"
-#include "ending.h"
-#include "heap.h"
-#include "input_files.h"
-#include "manual.h"
-#include "standard_streams.h"
+#include "support/command_line.h"
+#include "support/common.h"
+#include "support/ending.h"
+#include "support/heap.h"
+#include "support/input_files.h"
+#include "support/manual.h"
+#include "support/standard_streams.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/version.h"
 

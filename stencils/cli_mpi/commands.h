@@ -5,7 +5,7 @@
 #include <chrono>
 #include <functional>
 
-#include "sublimit/distributed/shard_jobs.h"
+#include "sublimit/distributed/jobs/shard_jobs.h"
 
 namespace sublimit::cli_mpi {
 

@@ -3,7 +3,7 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
-#include "../cli/memory_limit.h"
+#include "../cli/support/memory_limit.h"
 #include "commands.h"
 #include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"

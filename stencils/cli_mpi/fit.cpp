@@ -7,8 +7,8 @@
 
 #include "commands.h"
 #include "sublimit/base/error.h"
-#include "sublimit/distributed/points_file.h"
-#include "sublimit/distributed/spread_fit.h"
+#include "sublimit/distributed/jobs/spread_fit.h"
+#include "sublimit/distributed/mesh/points_file.h"
 
 namespace sublimit::cli_mpi {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "commands.h"
-#include "sublimit/distributed/info_job.h"
+#include "sublimit/distributed/jobs/info_job.h"
 
 namespace sublimit::cli_mpi {
 namespace {

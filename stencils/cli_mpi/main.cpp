@@ -2,9 +2,9 @@
 // `sublimit-mpi`: one mesh by many processes.
 #include <fmt/core.h>
 
-#include "../cli/command_line.h"
-#include "../cli/input_files.h"
-#include "../cli/standard_streams.h"
+#include "../cli/support/command_line.h"
+#include "../cli/support/input_files.h"
+#include "../cli/support/standard_streams.h"
 #include "commands.h"
 
 int main(int argc, char** argv) {

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "commands.h"
-#include "sublimit/distributed/refine_job.h"
+#include "sublimit/distributed/jobs/refine_job.h"
 
 namespace sublimit::cli_mpi {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "commands.h"
 #include "sublimit/base/error.h"
-#include "sublimit/distributed/sample_job.h"
+#include "sublimit/distributed/jobs/sample_job.h"
 #include "sublimit/io/detail/file_extension.h"
 
 namespace sublimit::cli_mpi {

@@ -348,7 +348,7 @@ def main() -> int:
     settings = (root / DOCS / "Doxyfile").read_text()
     settings += "INPUT = " + " ".join(f'"{root / f / "sublimit"}"' for f in ("lib", "eval", "stencils")) + "\n"
     settings += f'OUTPUT_DIRECTORY = "{xml}"\n'
-    doxygen = subprocess.run([told.doxygen, "-"], input=settings, text=True, capture_output=True, check=False)
+    doxygen = subprocess.run([told.doxygen, "-"], input=settings, text=True, capture_output=True, check=False, cwd=xml)
     if doxygen.returncode != 0 or doxygen.stderr:
         site.errors.append(doxygen.stderr)
     rooms, missing = api.write(xml / "xml", root, site.pages / "api")

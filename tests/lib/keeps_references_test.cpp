@@ -13,10 +13,7 @@
 #include "sublimit/fit/detail/fit_terms.h"
 #include "sublimit/io/detail/ply_values.h"
 #include "sublimit/io/detail/text_scanner.h"
-#include "sublimit/surface/detail/corner_limits.h"
 #include "sublimit/limit/detail/limit_cache.h"
-#include "sublimit/surface/detail/limit_patches.h"
-#include "sublimit/surface/detail/shared_places.h"
 #include "sublimit/neighborhood/regular_faces.h"
 #include "sublimit/neighborhood/repeated_block.h"
 #include "sublimit/patches/detail/bezier_pieces.h"
@@ -30,6 +27,9 @@
 #include "sublimit/search/detail/tracer.h"
 #include "sublimit/search/intersect.h"
 #include "sublimit/splits/detail/sheets.h"
+#include "sublimit/surface/detail/corner_limits.h"
+#include "sublimit/surface/detail/limit_patches.h"
+#include "sublimit/surface/detail/shared_places.h"
 #include "sublimit/tessellation/detail/cell_vertices.h"
 
 namespace sublimit::testing {

@@ -4,9 +4,9 @@
 // masks are exact. Of each level only the neighbourhood of the corner is made.
 #include <vector>
 
-#include "sublimit/source/address.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/scheme/refine.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit::testing {
 

@@ -17,8 +17,8 @@
 #include "sublimit/cad/signed_classes.h"
 #include "sublimit/cad/triangle_thirds.h"
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/surface/detail/limit_patches.h"
 #include "sublimit/nets/place_numbers.h"
+#include "sublimit/surface/detail/limit_patches.h"
 
 namespace sublimit {
 namespace {

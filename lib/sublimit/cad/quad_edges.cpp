@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "sublimit/surface/detail/limit_patches.h"
-#include "sublimit/nets/place_numbers.h"
 #include "sublimit/mesh/sharpness.h"
+#include "sublimit/nets/place_numbers.h"
 #include "sublimit/patches/detail/blossom.h"
+#include "sublimit/surface/detail/limit_patches.h"
 
 namespace sublimit {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sublimit/core/types.h"
-#include "sublimit/source/address.h"
 #include "sublimit/mesh/vertex_target.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit {
 

@@ -11,8 +11,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/geometric/nielson.h"
 #include "sublimit/geometric/piper.h"
-#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/scheme/detail/check_levels.h"
+#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/splits/split.h"
 
 namespace sublimit {

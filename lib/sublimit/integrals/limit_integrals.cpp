@@ -19,10 +19,10 @@
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/integrals/detail/closed_surface.h"
-#include "sublimit/surface/detail/limit_patches.h"
-#include "sublimit/nets/piece_hull.h"
 #include "sublimit/integrals/detail/quadrature.h"
 #include "sublimit/integrals/detail/refined_sums.h"
+#include "sublimit/nets/piece_hull.h"
+#include "sublimit/surface/detail/limit_patches.h"
 
 namespace sublimit {
 namespace {

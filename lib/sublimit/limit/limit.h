@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "sublimit/source/limit_status.h"
 #include "sublimit/scheme/any_scheme.h"
 #include "sublimit/scheme/refine.h"
+#include "sublimit/source/limit_status.h"
 
 namespace sublimit {
 

@@ -3,8 +3,8 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/surface/detail/limit_map_parts.h"
 #include "sublimit/nets/piece_hull.h"
+#include "sublimit/surface/detail/limit_map_parts.h"
 
 namespace sublimit {
 namespace {

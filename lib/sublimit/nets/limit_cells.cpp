@@ -9,8 +9,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/nets/hull_cell.h"
-#include "sublimit/surface/detail/limit_patches.h"
 #include "sublimit/nets/piece_hull.h"
+#include "sublimit/surface/detail/limit_patches.h"
 
 namespace sublimit {
 namespace {

@@ -4,8 +4,8 @@
 // by connectivity (`SharedPlaces`), never by position.
 #include <unordered_map>
 
-#include "sublimit/surface/detail/limit_map_parts.h"
 #include "sublimit/nets/piece_parts.h"
+#include "sublimit/surface/detail/limit_map_parts.h"
 #include "sublimit/surface/detail/shared_places.h"
 
 namespace sublimit {

@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/source/address.h"
-#include "sublimit/source/limit_stencil.h"
 #include "sublimit/patches/knots.h"
 #include "sublimit/patches/rational.h"
+#include "sublimit/source/address.h"
+#include "sublimit/source/limit_stencil.h"
 
 namespace sublimit {
 

@@ -11,8 +11,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/signature_hash.h"
 #include "sublimit/core/detail/sparse_rows.h"
-#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/patches/detail/bezier_pieces.h"
+#include "sublimit/source/detail/derivative_order.h"
 
 namespace sublimit {
 namespace {

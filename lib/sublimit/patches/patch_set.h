@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
-#include "sublimit/source/linear_source.h"
 #include "sublimit/patches/patch.h"
+#include "sublimit/source/linear_source.h"
 
 namespace sublimit {
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/source/place_stencils.h"
 #include "sublimit/patches/patch_set.h"
+#include "sublimit/source/place_stencils.h"
 
 namespace sublimit {
 

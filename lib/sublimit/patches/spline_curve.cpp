@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/patches/spline_curve.h"
 
-#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/patches/detail/spline_rows.h"
+#include "sublimit/source/detail/derivative_order.h"
 
 namespace sublimit {
 

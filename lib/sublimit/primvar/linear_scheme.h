@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The linear scheme on another scheme's split: vertices stay, edges get midpoints, faces centroids. On pqq it is
-// bilinear subdivision; on ptq its limit is the triangles themselves.
+// The linear scheme on another scheme's split: vertices are kept, edges get midpoints, and faces centroids. On
+// pqq it is bilinear subdivision; on ptq the limit is the triangles themselves.
 #include "sublimit/schemes/bilinear.h"
 
 namespace sublimit {
 
-/// True if vertices and edges survive, so that something can be linear along them.
+/// True if vertices and edges survive the split, so that values can be linear along edges.
 constexpr bool keeps_elements(Split split) { return is_primal(split) || split == Split::keep; }
 
 template <class T>
@@ -14,6 +14,7 @@ bool keeps_elements(const std::vector<Step<T>>& steps) {
   return std::all_of(steps.begin(), steps.end(), [](const Step<T>& step) { return keeps_elements(step.split); });
 }
 
+/// Returns the linear scheme.
 /// @pre  every step is primal
 template <class T>
 Scheme<T> linear_scheme(const Scheme<T>& scheme) {

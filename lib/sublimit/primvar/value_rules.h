@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Which rule each value of a face-varying channel follows, and how sharp that makes it.
+// Rules of the values of a face-varying channel, and the resulting sharpness.
 #include <vector>
 
 #include "sublimit/primvar/face_varying.h"
 
 namespace sublimit {
 
-/// Rules at level 0.
+/// Returns the rules at level 0.
 /// @param values  topology of the channel, cut along its seams
-/// @param is_cut  per half-edge of the mesh: its edge is a seam
+/// @param is_cut  per half-edge of the mesh: true if its edge is a seam
 std::vector<ValueRule> value_rules(const Level& mesh, const Topology& values, const std::vector<Index>& vertices,
                                    const std::vector<bool>& is_cut, FaceVaryingInterpolation interpolation);
 
-/// Rules one split on: inherited, and along seams those of a border.
+/// Returns the rules after a split: values inherit them; new values on seams are border values.
 std::vector<ValueRule> refine(const std::vector<ValueRule>& rules, const Topology& values, const Refinement& refinement,
                               FaceVaryingInterpolation interpolation);
 
-/// Sharpness of a channel from that of its mesh at the same level. Under FaceVaryingInterpolation::all only borders are
-/// sharp: no sharpness changes a linear mask.
+/// Returns the sharpness of a channel from that of its mesh at the same level. With
+/// FaceVaryingInterpolation::all only borders are sharp, since sharpness does not change linear masks.
 Sharpness value_sharpness(const Topology& mesh, const Sharpness& sharpness, const Topology& values,
                           const std::vector<Index>& vertices, const std::vector<ValueRule>& rules,
                           FaceVaryingInterpolation interpolation);

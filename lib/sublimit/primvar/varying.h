@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The simple primvars, carried along a refinement: `varying` (a value per vertex, linear over the split) and `uniform`
-// (a value per face, inherited). What is `vertex` goes by refinement_matrix; what is `face-varying` by face_varying.h.
+// Refinement of simple primvars: `varying` (a value per vertex, interpolated linearly over the split) and
+// `uniform` (a value per face, inherited). For `vertex` use refinement_matrix, for `face-varying`
+// face_varying.h.
 #include <span>
 #include <vector>
 
@@ -9,15 +10,16 @@
 
 namespace sublimit {
 
-/// Varying values of the last level from those of the control vertices: midpoints on edges, centroids in faces.
-/// @param levels  0 to k of one mesh under `scheme`
-/// @return  #V_k x #V_0, rows non-negative and of sum 1
+/// Returns the matrix from varying values of control vertices to those of the last level: midpoints on edges,
+/// centroids in faces.
+/// @param levels  levels 0 to k of a mesh, refined by `scheme`
+/// @return  #V_k x #V_0; rows are non-negative and sum to 1
 /// @throws InvalidParameter  no levels
-/// @throws InvalidOption     a scheme whose split does not keep vertices and edges: there is nothing to be linear along
+/// @throws InvalidOption     a scheme whose split does not keep vertices and edges
 SparseMatrix varying_matrix(const Scheme<double>& scheme, std::span<const Level> levels);
 
-/// Control face that each face of the last level descends from; under splits with faces for edges and vertices one of
-/// those around.
+/// Returns the control face that each face of the last level descends from; for splits with faces for edges and
+/// vertices, one of the faces around.
 /// @throws InvalidParameter  no levels
 std::vector<Index> uniform_parents(std::span<const Level> levels);
 /// Returns the matrix that copies values of faces to level k, #F_k x #F_0: a one in every row.

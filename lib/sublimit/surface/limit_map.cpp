@@ -10,12 +10,12 @@
 #include "sublimit/base/detail/huge_pages.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/limit/detail/limit_masks.h"
-#include "sublimit/surface/detail/limit_patches.h"
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/scheme/detail/check_scheme.h"
 #include "sublimit/scheme/detail/made_by.h"
+#include "sublimit/source/detail/derivative_order.h"
+#include "sublimit/surface/detail/limit_patches.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
 namespace {

@@ -19,8 +19,8 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/source/linear_source.h"
 #include "sublimit/scheme/refine.h"
+#include "sublimit/source/linear_source.h"
 
 namespace sublimit {
 

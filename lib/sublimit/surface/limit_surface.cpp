@@ -5,9 +5,9 @@
 
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/core/detail/finite_points.h"
+#include "sublimit/mesh/detail/points_in_space.h"
 #include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/surface/detail/limit_patches.h"
-#include "sublimit/mesh/detail/points_in_space.h"
 
 namespace sublimit {
 

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/source/curvature.h"
-#include "sublimit/surface/limit_map.h"
-#include "sublimit/source/place_stencils.h"
 #include "sublimit/scheme/any_scheme.h"
+#include "sublimit/source/curvature.h"
+#include "sublimit/source/place_stencils.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../table_applier.h"
+#include "../support/table_applier.h"
 #include "sublimit/eval/gpu/gpu_device.h"
 
 namespace sublimit::cli {

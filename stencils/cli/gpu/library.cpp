@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <type_traits>
 
-#include "../evaluator_applier.h"
-#include "../part_version.h"
+#include "../support/evaluator_applier.h"
+#include "../support/part_version.h"
 #include "entry.h"
 #include "sublimit/base/error.h"
 #include "sublimit/eval/gpu/gpu_evaluator.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <type_traits>
 
-#include "../part_version.h"
+#include "../support/part_version.h"
 #include "entry.h"
 
 extern "C" void sublimit_cad_file(const sublimit::BoundaryModel& model, const std::string& name, bool step,

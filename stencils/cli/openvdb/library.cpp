@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <type_traits>
 
-#include "../part_version.h"
+#include "../support/part_version.h"
 #include "entry.h"
 #include "sublimit/implicit/polygonize/polygonize.h"
 

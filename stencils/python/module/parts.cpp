@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "calls.h"
-#include "cli/loaded_library.h"
+#include "cli/support/loaded_library.h"
 #include "cli/opencascade/entry.h"
 #include "cli/openvdb/entry.h"
 #include "face_names.h"

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/patches/patches.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit::python {
 

@@ -20,10 +20,10 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/uninitialized.h"
-#include "sublimit/source/curvature.h"
-#include "sublimit/source/place_stencils.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/intersect.h"
+#include "sublimit/source/curvature.h"
+#include "sublimit/source/place_stencils.h"
 #include "sublimit/stencils/jobs/detail/tessellated_job.h"
 #include "sublimit/sublimit.h"
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
-#include "sublimit/distributed/partition.h"
-#include "sublimit/distributed/place_routes.h"
-#include "sublimit/distributed/shared_file.h"
-#include "sublimit/distributed/spread_frames.h"
-#include "sublimit/distributed/spread_rows.h"
-#include "sublimit/distributed/spread_table.h"
-#include "sublimit/distributed/spread_targets.h"
+#include "sublimit/distributed/jobs/place_routes.h"
+#include "sublimit/distributed/jobs/spread_targets.h"
+#include "sublimit/distributed/mesh/partition.h"
+#include "sublimit/distributed/mesh/shared_file.h"
+#include "sublimit/distributed/shards/spread_frames.h"
+#include "sublimit/distributed/shards/spread_rows.h"
+#include "sublimit/distributed/shards/spread_table.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Under mpirun: parts that ranks gather are those that one process cuts out of the whole mesh.
 #include "sublimit/base/error.h"
-#include "sublimit/distributed/gather_part.h"
-#include "sublimit/distributed/partition.h"
+#include "sublimit/distributed/mesh/gather_part.h"
+#include "sublimit/distributed/mesh/partition.h"
 #include "sublimit/io/detail/obj.h"
 
 namespace {

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/patches/patches.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
 

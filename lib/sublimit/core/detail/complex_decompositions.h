@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Decompositions of small complex matrices, made once: Eigen's are templates that take long to compile.
+// Decompositions of small complex matrices, compiled once: Eigen's templates take long to compile.
 #include <Eigen/Core>
 #include <Eigen/LU>
 
@@ -14,12 +14,12 @@ struct ComplexSingularValues {
   Eigen::VectorXd values;  ///< descending, min(rows, columns)
   Eigen::MatrixXcd right;  ///< columns x columns, unitary: the right singular vectors, those without a value last
 };
-/// Finds singular values by Jacobi rotations: small ones keep their digits.
+/// Returns singular values by Jacobi rotations: small values keep their relative accuracy.
 ComplexSingularValues singular_values(const Eigen::MatrixXcd& M);
-/// Returns the last of them alone.
+/// Returns the least singular value.
 double smallest_singular_value(const Eigen::MatrixXcd& M);
 
-/// LU of a square matrix, rows exchanged.
+/// LU decomposition of a square matrix with row pivoting.
 class ComplexLu {
  public:
   explicit ComplexLu(const Eigen::MatrixXcd& M);
@@ -30,10 +30,10 @@ class ComplexLu {
   Eigen::PartialPivLU<Eigen::MatrixXcd> lu_;
 };
 
-/// Returns the x of least |M x - right|, by reflections with column pivoting.
+/// Returns the x that minimises |M x - right|, by Householder QR with column pivoting.
 Eigen::VectorXcd least_squares_solution(const Eigen::MatrixXcd& M, const Eigen::VectorXcd& right);
 
-/// Returns M^-1 * right of a square matrix, by LU with rows and columns exchanged.
+/// Returns M^-1 * right of a square matrix, by LU with full pivoting.
 Eigen::MatrixXcd pivoted_solution(const Eigen::MatrixXcd& M, const Eigen::MatrixXcd& right);
 
 }  // namespace sublimit

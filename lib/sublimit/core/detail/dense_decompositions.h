@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Decompositions of small matrices, made once: Eigen's are templates that take long to compile.
+// Decompositions of small matrices, compiled once: Eigen's templates take long to compile.
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -14,20 +14,21 @@ struct SingularValues {
   Eigen::VectorXd values;  ///< descending, min(rows, columns)
   Eigen::MatrixXd right;   ///< columns x columns, orthogonal: the right singular vectors, those without a value last
 };
-/// Returns the singular values of M by Jacobi rotations: small values keep their digits.
+/// Returns the singular values of M by Jacobi rotations: small values keep their relative accuracy.
 SingularValues singular_values(const Eigen::MatrixXd& M);
 
-/// Orthonormal basis of the vectors that a square matrix takes to zero, by columns; nothing where it is in doubt how
-/// many there are, which singular values decide. A hundred times as fast as these.
+/// Returns an orthonormal basis of the null space of a square matrix, as columns; nothing if its dimension is
+/// not clear, which singular values can decide. A hundred times as fast as singular values.
 std::optional<Eigen::MatrixXd> clear_null_space(const Eigen::MatrixXd& M);
 
-/// Reflections with column pivoting: solutions in the sense of least squares, and the rank.
+/// Householder QR with column pivoting: least-squares solutions, and the rank.
 class PivotedQr {
  public:
   explicit PivotedQr(const Eigen::MatrixXd& M);
   Eigen::Index rank() const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
-  /// The last so many columns of the orthogonal factor: perpendicular to the columns of a matrix of lower rank.
+  /// Returns the last `count` columns of the orthogonal factor, which are orthogonal to the columns of a
+  /// rank-deficient matrix.
   Eigen::MatrixXd last_directions(Eigen::Index count) const;
 
  private:
@@ -37,26 +38,26 @@ class PivotedQr {
 /// Returns the minimum-norm least-squares solution. Pivots below `threshold` times the largest count as zero.
 Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& M, const Eigen::VectorXd& right, double threshold);
 
-/// Orthonormal columns that span what those of X do.
+/// Returns orthonormal columns with the same span as those of X.
 Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& X);
 
-/// The triangular factor of a matrix of at least as many rows as columns.
+/// Returns the triangular QR factor of a matrix with at least as many rows as columns.
 Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& X);
 
-/// Returns M^-1 * right of a square matrix, by LU with rows exchanged.
+/// Returns M^-1 * right of a square matrix, by LU with row pivoting.
 Eigen::MatrixXd square_solution(const Eigen::MatrixXd& M, const Eigen::MatrixXd& right);
-/// Returns M^-1 of a square matrix, by LU with rows exchanged.
+/// Returns M^-1 of a square matrix, by LU with row pivoting.
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& M);
-/// Returns the determinant of a square matrix, by LU with rows exchanged.
+/// Returns the determinant of a square matrix, by LU with row pivoting.
 double determinant(const Eigen::MatrixXd& M);
 
-/// LU with rows and columns exchanged, which tells whether there is an inverse.
+/// LU decomposition with full pivoting, which decides whether there is an inverse.
 class PivotedLu {
  public:
   explicit PivotedLu(const Eigen::MatrixXd& M);
   /// True if no pivot counts as zero.
   bool is_invertible() const;
-  double rcond() const;  ///< an estimate of 1 / condition
+  double rcond() const;  ///< estimate of 1 / condition number
   /// Returns M^-1 * right.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
   /// Returns M^-1.

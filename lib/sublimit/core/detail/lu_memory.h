@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Lack of memory in Eigen's SparseLU. Included where <Eigen/SparseLU> is, before its factors are made.
+// Handling of allocation failures in Eigen's SparseLU. Include it with <Eigen/SparseLU>, before factors are
+// computed.
 #include <Eigen/SparseLU>
 
 #include <algorithm>
@@ -9,12 +10,12 @@
 
 namespace sublimit {
 
-/// Grows an array of SparseLU, or leaves it as it is where memory lacks. Eigen 3.4 frees the old array before it asks
-/// for the new one, and once more if there is none.
-/// @param length       elements there are (to begin with: that are wanted)
-/// @param num_kept     first elements that stay
-/// @param keep_length  `length` elements are wanted, no more
-/// @return 0, or as Eigen has it: -1 where the first array lacks, else the length that there was no memory for
+/// Grows an array of SparseLU, or leaves it unchanged if memory is short. (Eigen 3.4 frees the old array before
+/// it allocates the new one, and again if that fails.)
+/// @param length       current number of elements; for a first allocation the requested number
+/// @param num_kept     number of leading elements to keep
+/// @param keep_length  true: allocate exactly `length` elements
+/// @return 0, or as in Eigen: -1 if a first allocation failed, else the length for which there was no memory
 template <class Array>
 Eigen::Index grow_factors(Array& array, Eigen::Index& length, Eigen::Index num_kept, bool keep_length,
                           Eigen::Index& num_expansions) {
@@ -37,12 +38,12 @@ Eigen::Index grow_factors(Array& array, Eigen::Index& length, Eigen::Index num_k
   }
 }
 
-/// Finds columns of a factor that are treated as one: whole subtrees of the elimination tree with few columns.
-/// Eigen 3.4 frees an array of its own twice here if memory ends.
-/// @param parents  of each column, n for none; ascending towards the root
-/// @param most     columns below the root of a subtree, less than
-/// @param below    columns below each one, made here
-/// @param last     last column of the subtree that begins with a column; -1 where none does
+/// Finds relaxed supernodes: whole subtrees of the elimination tree with few columns, which are treated as one.
+/// (Eigen 3.4 frees an array twice here if memory is short.)
+/// @param parents  parent of each column, n for none; ascending towards the root
+/// @param most     the number of columns below the root of a subtree is less than this
+/// @param below    result: number of columns below each one
+/// @param last     result: last column of the subtree that starts with a column; -1 if none does
 template <class Array>
 void find_relaxed_columns(Eigen::Index n, const Array& parents, Eigen::Index most, Array& below, Array& last) {
   using Column = typename Array::Scalar;
@@ -67,9 +68,9 @@ void find_relaxed_columns(Eigen::Index n, const Array& parents, Eigen::Index mos
   }
 }
 
-/// Throws if a factorization ended for want of memory: SparseLU catches that, says it in words and may leave its status
-/// as it was.
-/// @throws std::bad_alloc  it did
+/// Throws if a factorisation failed for lack of memory. SparseLU catches the exception, sets its error text,
+/// and may leave its status unchanged.
+/// @throws std::bad_alloc  memory was short
 template <class Lu>
 void check_memory_of(const Lu& lu) {
   if (lu.lastErrorMessage().find("MEMORY") != std::string::npos) throw std::bad_alloc();

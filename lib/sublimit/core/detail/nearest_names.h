@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a misspelt name may have meant.
+// Suggestions for misspelt names.
 #include <string>
 #include <vector>
 
 namespace sublimit {
 
-/// Returns the names that may be meant, nearest first: those with the fewest letters to insert, delete or replace, or
-/// one more, but not more than half of the misspelt name has. One that begins with it is nearer than any other.
+/// Returns the names that may be meant, nearest first: those with the least edit distance, or one more, but at
+/// most half of the length of the misspelt name. A name that starts with the misspelt one is nearer than any
+/// other.
 std::vector<std::string> nearest_names(const std::string& name, std::vector<std::string> names, int count = 3);
 
-/// Returns the names that may be meant in words, "the nearest are a, b"; if none is near, "there are " and all names.
+/// Returns a text with the names that may be meant, "the nearest are a, b", or "there are " and all names if
+/// none is near.
 std::string nearest_in_words(const std::string& name, const std::vector<std::string>& names);
 
 }  // namespace sublimit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Hash of a signature: the words that say of what type a neighbourhood or a piece is.
+// Hash of a signature: the words that identify the type of a neighbourhood or a piece.
 #include <cstddef>
 #include <cstdint>
 #include <vector>

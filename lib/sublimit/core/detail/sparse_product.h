@@ -7,12 +7,12 @@
 namespace sublimit {
 
 /// Returns S * points: the new points, one row per row of S.
-/// @throws InvalidParameter  as many points as S has columns are needed
+/// @throws InvalidParameter  another number of points than S has columns
 [[nodiscard]] Points apply(const SparseMatrix& S, const Points& points);
 
 /// Returns A * B, columns of a row ascending.
-/// @throws InvalidParameter  the shapes do not fit
-/// @throws ResourceError     more nonzeros than 32-bit indices
+/// @throws InvalidParameter  shapes that do not match
+/// @throws ResourceError     more nonzeros than 32-bit indices count
 [[nodiscard]] SparseMatrix product(const SparseMatrix& A, const SparseMatrix& B);
 
 }  // namespace sublimit

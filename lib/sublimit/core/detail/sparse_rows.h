@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Sparse rows of a few terms each, one after the other in one piece of memory.
+// Sparse rows of a few terms each, stored contiguously.
 #include <cstdint>
 #include <deque>
 #include <span>
@@ -50,7 +50,8 @@ class SparseRows {
 /// @throws ResourceError  more nonzeros than 32-bit indices count
 SparseMatrix matrix_of(std::span<const SparseRows::Row> rows, Index columns);
 
-/// Blocks of rows, one below the other. Eigen's matrices copy where others move: here they stay where they are.
+/// Blocks of rows, one below the other. Eigen's sparse matrices copy instead of moving, so blocks are never
+/// relocated.
 class StackedRows {
  public:
   bool empty() const { return blocks_.empty(); }

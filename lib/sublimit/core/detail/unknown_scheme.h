@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What is said of a name that a registry of schemes does not have.
+// Errors for names that a registry of schemes does not have.
 #include <string>
 
 namespace sublimit {
 
-/// The registries, by what their schemes refine.
+/// Registries, by the data that their schemes refine.
 enum class SchemeKind {
   surface,         ///< `scheme`, `find_scheme`: meshes, by matrices
   curve,           ///< `curve_scheme`, `find_curve_scheme`: polygons, by matrices
@@ -14,13 +14,13 @@ enum class SchemeKind {
   normal_mesh,     ///< `geometric_scheme<NormalMesh>`
 };
 
-/// Throws for a name that is not one of `wanted`: names the function that makes it where another registry has it, else
-/// the nearest names of this one.
+/// Throws for a name that is not in registry `wanted`. The message names the function that makes it if another
+/// registry has it, else the nearest names of this one.
 /// @throws InvalidOption  always
 [[noreturn]] void throw_unknown_scheme(const std::string& name, SchemeKind wanted);
 
-/// Throws for a name that is no scheme of surfaces, in words for any language: what takes it where another registry has
-/// it, else the nearest names of all.
+/// Throws for a name that is no surface scheme, with a message that is independent of the programming language:
+/// says what accepts it if another registry has it, else the nearest names of all registries.
 /// @throws InvalidOption  always
 [[noreturn]] void throw_no_surface_scheme(const std::string& name);
 

@@ -9,10 +9,10 @@
 #include "sublimit/fit/detail/for_coordinates.h"
 #include "sublimit/fit/detail/unit_frame.h"
 #include "sublimit/fit/detail/vertex_conditions.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/mesh/detail/points_in_space.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 #include "sublimit/scheme/detail/check_levels.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "sublimit/limit/detail/limit_cache.h"
-#include "sublimit/source/limit_status.h"
 #include "sublimit/neighborhood/centre.h"
 #include "sublimit/scheme/refine.h"
+#include "sublimit/source/limit_status.h"
 
 namespace sublimit {
 

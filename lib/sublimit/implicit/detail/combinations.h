@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Fields of fields: Boolean operations by minima and maxima, with sharp edges where arguments tie or smooth ones;
-// offsets; rigid motions and uniform scale.
+// Combinations of fields: Boolean operations by minima and maxima, with sharp or with smoothed edges; offsets;
+// rigid motions and uniform scaling.
 #include "sublimit/implicit/detail/primitives.h"
 
 namespace sublimit {
 
-/// min, max, max(a, -b, -c ..). @throws InvalidParameter  no fields
+/// Return the union min, the intersection max, and the difference max(a, -b, -c ..) of fields.
+/// @throws InvalidParameter  no fields
 FieldPointer union_field(std::vector<FieldPointer> fields);
 FieldPointer intersection_field(std::vector<FieldPointer> fields);
 FieldPointer difference_field(std::vector<FieldPointer> fields);
-/// One after the other min(a, b) - k h^2 / 4, h = max(1 - |a - b| / k, 0): C^1.
+/// Returns a smooth union, C^1: combines fields one after another by min(a, b) - k h^2 / 4, h = max(1 - |a - b|
+/// / k, 0).
 /// @param width  k > 0, in the unit of the fields' values
 FieldPointer smooth_union_field(std::vector<FieldPointer> fields, double width);
-/// F - by: of a distance field the surface at that distance, outside if by > 0.
+/// Returns F - by. For a distance field its surface is that at this distance, outside if by > 0.
 FieldPointer offset_field(FieldPointer field, double by);
-/// s F(M^-1 x), s the scale of M: what is a distance stays one.
-/// @param matrix  M, maps the field's space to this one: rotation or reflection times a scale > 0, and translation, to
-///                1e-9
+/// Returns s F(M^-1 x), where s is the scale of M, so that distance fields remain distance fields.
+/// @param matrix  M, from the space of the field to that of the result: a rotation or reflection times a scale
+///                > 0 (checked to 1e-9), and a translation
 FieldPointer transformed_field(FieldPointer field, const Eigen::Matrix4d& matrix);
 
 }  // namespace sublimit

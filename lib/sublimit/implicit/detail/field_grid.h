@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Samples a field over a box of cubes, as polygonisers take it. All errors of field and box are reported here.
+// Samples of fields over a box of cubes, the input of polygonisers. Errors of field and box are reported here.
 #include <Eigen/Geometry>
 
 #include <array>
@@ -23,16 +23,16 @@ struct FieldGrid {
 
 /// Returns a box around {F <= 0} with a margin of one cell.
 /// @param cells  number of cells along its longest side, including the margin
-/// @throws InvalidParameter  the field has no extent, or an empty one
+/// @throws InvalidParameter  the extent of the field is unknown or empty
 Eigen::AlignedBox3d padded_extent(const Field& field, int cells);
 
-/// Samples a field.
-/// @param box    covered by the cubes, in their middle
+/// Returns samples of a field.
+/// @param box    box to cover; the cubes are centred on it
 /// @param cells  number of cells along its longest side, 4 or more
-/// @throws InvalidParameter  a box without inside; a field that is not finite somewhere (says where), has one sign
-///                           (gives least and largest value, and says if it is thinner than a cell), or is not
-///                           positive on the border of the box (says where)
-/// @throws ResourceError     more cells than memory holds, before it is taken
+/// @throws InvalidParameter  an empty box; a field that is not finite somewhere (says where), has one sign only
+///                           (names the least and largest value, and whether it is thinner than a cell), or is
+///                           not positive on the border of the box (says where)
+/// @throws ResourceError     more cells than memory holds; thrown before allocation
 FieldGrid sample_field(const Field& field, const Eigen::AlignedBox3d& box, int cells);
 
 }  // namespace sublimit

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Control points whose limit is near to a level set: places of the limit, the nearest points of the surface as targets,
-// least squares of distances from tangent planes, and again. As fit_cloud does, but with targets by Newton's method on
-// the field instead of given points.
+// Control points whose limit approximates a level set. Iterates: project places of the limit onto the surface
+// by Newton's method on the field, then minimise the distances from the tangent planes there by least squares.
+// Like fit_cloud, with computed targets instead of given points.
 #include <functional>
 
 #include "sublimit/implicit/detail/cage.h"
@@ -10,38 +10,43 @@
 
 namespace sublimit {
 
-/// Normals further than that from the gradient, in radians: faces are folded, the cage does not show the shape.
+/// Angle between normals and gradients, in radians, above which faces count as folded: the cage does not have
+/// the shape.
 inline constexpr double folded_angle = 1;
 
 /// Distances of a limit from a level set.
 struct LevelSetError {
   Index samples = 0;
-  double largest = 0, mean = 0;  ///< of |F| / |grad F|, the distance to first order
-  Eigen::Vector3d worst;         ///< where it is largest
-  double largest_angle = 0;      ///< between limit normals and the gradient, radians
+  double largest = 0, mean = 0;  ///< largest and mean |F| / |grad F|, the distance to first order
+  Eigen::Vector3d worst;         ///< place of the largest
+  double largest_angle = 0;      ///< largest angle between limit normals and gradients, radians
   double mean_angle = 0;
-  Index curvatures = 0;                  ///< places where the limit and the field have second derivatives
-  double gauss = 0, mean_curvature = 0;  ///< there: means of |difference| to the curvature of the level set
-  /// Faces are folded or inside out: near to the surface, they need not cover it.
+  Index curvatures = 0;                  ///< number of places where limit and field have second derivatives
+  double gauss = 0, mean_curvature = 0;  ///< mean absolute error of both curvatures at these places
+  /// True if faces are folded or inside out. They may then be near the surface without covering it.
   bool is_folded() const { return largest_angle > folded_angle; }
 };
 
-/// True if a is the better one. Folded ones are last: a limit that is all at one point of a surface has no distance.
+/// True if a is better than b. Folded ones are worst: a limit that is a single point of the surface has
+/// distance 0.
 bool is_nearer(const LevelSetError& a, const LevelSetError& b);
 
+/// Result of a fit.
 struct [[nodiscard]] LevelSetFit {
   Points points;               ///< control points
-  LevelSetError error;         ///< of them
-  std::vector<double> rounds;  ///< largest distances, the first guess before them
+  LevelSetError error;         ///< error of their limit
+  std::vector<double> rounds;  ///< largest distance of the first guess, and after each round
 };
 
-/// @param surface  of the cage's mesh with its tags
-/// @param rounds   of projection and least squares
+/// Returns the fit of a cage.
+/// @param surface  limit surface of the cage's mesh with its tags
+/// @param rounds   number of rounds of projection and least squares
 LevelSetFit fit_level_set(const LimitMap& surface, const Cage& cage, const FieldSides& sides, int rounds,
                           const std::function<void(int)>& progress = {});
 
-/// Measured on grids of N x N places a face, normals beside the gradient of the side that the face is of.
-/// @param curved  whether to compare curvatures, too
+/// Returns the error on a grid of N x N places per face. Normals are compared with the gradient of the face's
+/// side.
+/// @param curved  true: compare curvatures too
 LevelSetError level_set_error(const LimitMap& surface, const Points& points, const Cage& cage, const FieldSides& sides,
                               int N = 7, bool curved = true);
 

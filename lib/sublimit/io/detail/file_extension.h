@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a file says it is, by its name.
+// File types by extension.
 #include <filesystem>
 #include <string>
 
 namespace sublimit {
 
-/// The extension of a path in lower case: ".obj" for MESH.OBJ, empty if there is none.
+/// Returns the extension of a path in lower case: ".obj" for MESH.OBJ, empty if there is none.
 inline std::string file_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the parts of a free-form element must have in common, checked at its `end` and at the end of the file.
+// Consistency checks of free-form elements, at their `end` and at the end of the file.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace sublimit {
 
-/// Collected warnings of a reader: the first 20, and a note if there are more.
+/// Warnings of a reader: the first 20, and a note if there are more.
 class FreeFormWarnings {
  public:
   explicit FreeFormWarnings(std::vector<std::string>& warnings) : warnings_(warnings) {}
@@ -21,16 +21,17 @@ class FreeFormWarnings {
   int count_ = 0;
 };
 
-/// Counts of control points and parameters, domains, multiplicities of knots; completes directions. Points, parameters,
-/// degrees and steps are those of the file, `first` and `last` the range that it names (of a curve in parameter space:
-/// equal, for all).
+/// Checks counts of control points and parameters, domains, and multiplicities of knots; completes directions.
+/// Points, parameters, degrees and steps are those of the file; `first` and `last` are the range that it names
+/// (for a curve in parameter space equal, meaning the whole domain).
 /// @throws FormatError
 void check_curve(FreeFormCurve& curve, std::string_view keyword, const TextScanner& scanner,
                  FreeFormWarnings& warnings);
 void check_surface(FreeFormSurface& surface, const TextScanner& scanner, FreeFormWarnings& warnings);
 
-/// Weights of a rational element that are all 0, or some not positive; weights that nothing uses.
-/// @param weights  of all points that `element.points` counts
+/// Checks weights: those of a rational element must not all be 0. Warns about weights that are not positive, or
+/// not used.
+/// @param weights  weights of all points that `element.points` refers to
 /// @throws InvalidMesh
 void check_weights(const FreeFormElement& element, const std::vector<double>& weights, std::string_view keyword,
                    const TextScanner& scanner, FreeFormWarnings& warnings);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The statements of an OBJ file, for readers that take some of them: what the others are, so that none is left out
-// without a word.
+// Classification of the statements of an OBJ file, so that readers of some of them report which others they
+// skip.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,7 +12,7 @@
 
 namespace sublimit {
 
-/// How many elements of each kind a file has.
+/// Number of elements of each kind in a file.
 struct ObjElements {
   std::int64_t faces = 0, lines = 0, curves = 0, curves_2d = 0, surfaces = 0;
   std::int64_t first_free_form = -1;  ///< line of the first `curv`, `curv2` or `surf`
@@ -20,11 +20,11 @@ struct ObjElements {
   /// Counts a statement if it is an element other than a point.
   bool count(const TextScanner& scanner, std::string_view keyword);
   bool has_free_form() const { return first_free_form >= 0; }
-  /// "2 curves and 1 surface"; `curv2` are "curves in parameter space".
+  /// Returns the counts as text: "2 curves and 1 surface"; `curv2` are "curves in parameter space".
   std::string free_form() const;
 };
 
-/// "1 face", "2 faces": for words whose plural has an s.
+/// Returns "1 face", "2 faces", for words with a plural in s.
 std::string counted(std::int64_t count, std::string_view singular);
 
 /// True for a statement that neither a mesh, a polygon, a curve nor a surface depends on: groups, materials,
@@ -33,9 +33,10 @@ bool is_attribute_keyword(std::string_view keyword);
 /// True for a statement of free-form curves and surfaces (free_form.h) that is no element.
 bool is_free_form_keyword(std::string_view keyword);
 
-/// Warnings of keywords that no version of the format has: one for each keyword, 20 at most.
+/// Warnings about keywords that no version of the format has: one per keyword, at most 20.
 class UnknownKeywords {
  public:
+  /// Adds a warning.
   /// @throws FormatError  the keyword is no text
   void warn(const TextScanner& scanner, std::string_view keyword, std::vector<std::string>& warnings);
 

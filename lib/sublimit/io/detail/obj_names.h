@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Names of groups and objects in OBJ files, `g NAME ...` and `o NAME`: of the elements from there to the next such
-// line.
+// Names of groups and objects in OBJ files, `g NAME ...` and `o NAME`, which apply to the elements up to the
+// next such line.
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -12,9 +12,9 @@ namespace sublimit {
 
 class ObjNames {
  public:
-  /// Reads the rest of a line behind its `g` or `o`. Several names are one, with blanks between its words.
-  /// @param names  where it is, or is added
-  /// @return       which of them; -1 if the line has none
+  /// Reads the rest of a line after its `g` or `o`. Several words are one name with blanks.
+  /// @param names  list of names, to which it is added if it is new
+  /// @return       index of the name; -1 if the line has none
   Index read(TextScanner& scanner, std::vector<std::string>& names);
 
  private:

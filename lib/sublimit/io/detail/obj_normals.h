@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Normals of the vertices of an OBJ file, for the few readers that want them (read_obj leaves them out): `vn x y z` and
-// the third index of the corners of `f`. All corners at a vertex must agree.
+// Normals of the vertices of an OBJ file, `vn x y z` with the third index of the corners of `f`, for readers
+// that need them (read_obj skips them). All corners at a vertex must agree.
 #include <filesystem>
 #include <string_view>
 
@@ -9,9 +9,9 @@
 
 namespace sublimit {
 
-/// A normal for each vertex, of any length, as the file has it.
+/// Returns the normal of each vertex as in the file, of any length.
 /// @return  #v x 3; zero at vertices without a face; no rows if the file has neither `vn` nor corners that name one
-/// @throws FormatError  numbers that are none, index 0, with file:line
+/// @throws FormatError  malformed numbers or index 0; names file:line
 /// @throws InvalidMesh  numbers that are not finite, indices out of range; `vn` that no corner names; a corner
 ///                      without a normal, or with another one than an earlier corner of its vertex has: file:line
 ///                      and vertex

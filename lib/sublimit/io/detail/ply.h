@@ -27,7 +27,8 @@ Mesh read_ply(const std::filesystem::path& path);
 /// @throws as `read_ply`, but for IoError
 Mesh parse_ply(std::string_view bytes, std::string_view name);
 
-/// The mesh, with the properties of these names as its `vertex_values`, but for those that the file does not have.
+/// Returns the mesh with the named properties as its `vertex_values`; properties that the file lacks are left
+/// out.
 Mesh read_ply(const std::filesystem::path& path, std::span<const std::string> names);
 Mesh parse_ply(std::string_view bytes, std::string_view name, std::span<const std::string> names);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The header of a PLY file: which elements follow, how many of each, and what a row of each is made of.
+// The header of a PLY file: the elements with their counts and the properties of each.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@ bool is_integer(PlyType type);
 struct PlyProperty {
   std::string name;
   PlyType type;                   ///< of the value, or of each value of a list
-  std::optional<PlyType> length;  ///< lists: type of the number of values, which stands in front of them
+  std::optional<PlyType> length;  ///< for lists: type of the number of values, which precedes them
 };
 
 struct PlyElement {
@@ -30,11 +30,12 @@ struct PlyHeader {
   enum class Encoding { text, little_endian, big_endian };
   Encoding encoding = Encoding::text;
   std::vector<PlyElement> elements;
-  std::int64_t size = 0;   ///< bytes; data starts behind
-  std::int64_t lines = 0;  ///< data starts on the line behind
+  std::int64_t size = 0;   ///< bytes of the header; data starts after it
+  std::int64_t lines = 0;  ///< lines of the header; data starts on the next line
 };
 
-/// @throws FormatError  with file:line; among others for counts that the bytes behind the header cannot hold
+/// Returns the header.
+/// @throws FormatError  a malformed header, or counts too large for the bytes after it; names file:line
 PlyHeader parse_ply_header(std::string_view bytes, std::string_view name);
 
 }  // namespace sublimit

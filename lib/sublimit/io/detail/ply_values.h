@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The data of a PLY file as a stream of rows and numbers: the same face for text and for binary.
+// The data of a PLY file as a stream of rows and numbers, with the same interface for text and binary.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -14,7 +14,7 @@
 
 namespace sublimit {
 
-/// Text: a row is a line.
+/// Text data, with a row per line.
 class PlyTextValues {
  public:
   /// @param bytes  which must stay
@@ -59,7 +59,7 @@ class PlyTextValues {
   std::int64_t first_line_;
 };
 
-/// Binary of either byte order; rows have no marks.
+/// Binary data of either byte order; rows have no separators.
 class PlyBinaryValues {
  public:
   /// @param bytes  which must stay
@@ -84,7 +84,7 @@ class PlyBinaryValues {
         return static_cast<double>(integer(type));
     }
   }
-  /// @pre  type is an integer's
+  /// @pre  `type` is an integer type
   std::int64_t integer(PlyType type) {
     switch (type) {
       case PlyType::int8:

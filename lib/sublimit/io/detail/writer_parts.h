@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the writers of meshes share.
+// Common code of mesh writers.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace sublimit {
 
-/// Comments as lines that begin with `mark`, those of several lines as so many.
+/// Returns comments as lines that start with `mark`; a comment of several lines becomes several lines.
 inline std::string format_comments(const std::vector<std::string>& comments, std::string_view mark) {
   std::string out;
   for (const std::string& comment : comments) {
@@ -24,7 +24,7 @@ inline std::string format_comments(const std::vector<std::string>& comments, std
   return out;
 }
 
-/// The first corner of every `faces_per_block`-th face.
+/// Returns the first corner of every `faces_per_block`-th face.
 inline std::vector<std::size_t> first_corners(const std::vector<Index>& face_sizes, std::int64_t faces_per_block) {
   std::vector<std::size_t> first;
   std::size_t corner = 0;

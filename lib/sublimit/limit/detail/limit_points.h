@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "sublimit/limit/detail/limit_cache.h"
-#include "sublimit/source/limit_status.h"
 #include "sublimit/scheme/refine.h"
+#include "sublimit/source/limit_status.h"
 
 namespace sublimit {
 

@@ -6,8 +6,8 @@
 // neighbourhood becomes stationary.
 #include "sublimit/core/detail/sparse_rows.h"
 #include "sublimit/limit/detail/limit_cache.h"
-#include "sublimit/source/limit_status.h"
 #include "sublimit/scheme/refine.h"
+#include "sublimit/source/limit_status.h"
 
 namespace sublimit {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What every reader of a mesh refuses, and every writer, in the same words.
+// Common checks of mesh readers and writers, so that they report the same errors.
 #include "sublimit/mesh/mesh.h"
 #include "sublimit/mesh/mesh_view.h"
 
@@ -11,7 +11,7 @@ namespace sublimit {
 void check_faces(const MeshView& mesh);
 
 /// Checks that creases, corners and holes name vertices and faces of the mesh, and that no sharpness is negative.
-/// Whether creases run along edges, `initial_sharpness` finds.
+/// Creases along edges are checked by `initial_sharpness`.
 /// @throws InvalidMesh  names the tag
 void check_tags(const Mesh& mesh);
 

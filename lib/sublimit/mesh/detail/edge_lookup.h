@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Which of a mesh's creases run along edges of its faces: readers of tags ask before any topology exists.
+// Check whether creases of a mesh run along edges of its faces, for readers of tags, before there is a
+// topology.
 #include <span>
 #include <vector>
 
@@ -8,11 +9,11 @@
 
 namespace sublimit {
 
-/// For each crease, whether some face has its two vertices next to each other. Linear time.
-/// @pre  sizes of faces fit their vertices
+/// Returns for each crease whether its vertices are consecutive in some face. Linear time.
+/// @pre  face sizes and face vertices are consistent
 std::vector<bool> along_edges(const Mesh& mesh, std::span<const Mesh::Crease> creases);
 
-/// The edges of knot intervals, to be looked up like creases.
+/// Returns the edges of knot intervals as creases, for the lookup.
 std::vector<Mesh::Crease> edges_of(std::span<const Mesh::KnotInterval> intervals);
 
 }  // namespace sublimit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Control points as limits need them.
+// Control points of a mesh, checked for limits.
 #include "sublimit/mesh/mesh.h"
 
 namespace sublimit {

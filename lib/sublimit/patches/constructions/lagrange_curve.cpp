@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"
 #include "sublimit/patches/detail/spline_rows.h"
+#include "sublimit/source/detail/derivative_order.h"
 
 namespace sublimit {
 

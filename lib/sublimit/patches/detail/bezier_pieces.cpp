@@ -8,8 +8,8 @@
 
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/source/detail/derivative_order.h"
 #include "sublimit/patches/detail/spline_rows.h"
+#include "sublimit/source/detail/derivative_order.h"
 
 namespace sublimit {
 namespace {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "sublimit/source/linear_source.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/patches/spline_surface.h"
+#include "sublimit/source/linear_source.h"
 
 namespace sublimit {
 

@@ -5,8 +5,8 @@
 //   x(f,u,v) = sum_i R_i(f,u,v) P_i     R_i = w_i N_i / sum_j w_j N_j
 //
 // so that fits and energies, which take a linear source, can use it.
-#include "sublimit/source/linear_source.h"
 #include "sublimit/patches/patch_set.h"
+#include "sublimit/source/linear_source.h"
 
 namespace sublimit {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/patches/joins/join_orders.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit {
 

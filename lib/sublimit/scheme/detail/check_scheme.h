@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Checks a scheme before anything is computed with it, built in or your own: it has steps, the masks that their splits
-// need, and masks that return affine combinations of points of their site. All functions that take a scheme call it.
+// Checks of a scheme, built-in or user-defined, before anything is computed with it: it must have steps, the
+// masks that their splits need, and masks that return affine combinations of points of their site. All
+// functions that take a scheme call it.
 //
 //   Scheme<double> mine = *AnyScheme("loop");
 //   mine.steps[0].masks.edge = {};
@@ -18,7 +19,7 @@
 
 namespace sublimit {
 
-/// True for each mask that a step has, those along creases included.
+/// Presence of each mask of a step, including crease masks.
 struct MasksThere {
   bool vertex, edge, face, corner, wide_edge, wide_face, crease_vertex, crease_edge;
 };
@@ -34,13 +35,13 @@ const CreaseMasks<T>& creases_of(const Scheme<T>& scheme, const Step<T>& step) {
 /// @throws InvalidParameter  a missing mask: names scheme, step, mask and what it is needed for
 void check_masks(const std::string& scheme, const char* list, size_t i, Split split, const MasksThere& masks);
 
-/// Throws unless the numbers and lists of a scheme fit together.
+/// Throws unless the numbers and lists of a scheme are consistent.
 /// @throws InvalidParameter  no steps, a period below 1, faces of 1 or 2 corners, preparation for faces of any size
 void check_shape(const std::string& scheme, size_t steps, size_t preparation, int period, int corners);
 
 /// Throws unless a scheme is complete. Calls no mask and allocates nothing.
 /// @return  the scheme
-/// @throws InvalidParameter  as `check_shape` and `check_masks`
+/// @throws InvalidParameter  see `check_shape` and `check_masks`
 template <class T>
 const Scheme<T>& check_scheme(const Scheme<T>& scheme) {
   check_shape(scheme.name, scheme.steps.size(), scheme.preparation.size(), scheme.period, scheme.corners);
@@ -62,7 +63,7 @@ const Scheme<T>& check_scheme(const Scheme<T>& scheme) {
 /// Tolerance of the sum of the weights of a mask, relative to the sum of their absolute values: above the rounding of
 /// doubles, below the effect of a wrong weight.
 inline constexpr double affine_rounding = 1e-9;
-/// True for number types that are rounded, as double; false for rational and algebraic numbers and balls.
+/// True for floating-point number types, such as double; false for rational and algebraic numbers and balls.
 template <class T>
 inline constexpr bool is_rounded = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_exact;
 
@@ -78,7 +79,7 @@ bool is_sum(const T& sum, int expected, const T& size) {
   }
 }
 
-/// Returns a weight as messages show it.
+/// Returns a weight as text for messages.
 template <class T>
 std::string weight_text(const T& x) {
   if constexpr (PlainNumber<T>)
@@ -121,7 +122,7 @@ void check_mask(const std::string& scheme, const char* mask, const Stencil<T>& s
 
 /// Checks the stencil of a mask when a matrix is filled: points and weights as `check_mask`; in exact numbers the
 /// points only, since proofs report weights that do not add up to 1 in their verdict.
-/// @throws InvalidParameter  as `check_mask` or `check_slots`
+/// @throws InvalidParameter  see `check_mask` and `check_slots`
 template <class T>
 void check_weights(const std::string& scheme, const char* mask, const Stencil<T>& stencil, Index slots) {
   if constexpr (is_rounded<T>)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Knots as sites see them, from the intervals and the new knots of a level's edges.
+// Knots of sites, from the intervals and the new knots of a level's edges.
 #include <optional>
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace sublimit {
 
 class LevelKnots {
  public:
-  /// @param topology, split  which must stay
+  /// @param topology, split  must outlive this
   LevelKnots(const Topology& topology, const KnotSplit& split) : t_(topology), split_(split) {}
   LevelKnots(const Topology&&, const KnotSplit&) = delete;
   LevelKnots(const Topology&, const KnotSplit&&) = delete;
@@ -51,7 +51,8 @@ class LevelKnots {
     const double s = split_.distance[index(t_.edge(h))];
     return t_.forward(h) ? s : length(h) - s;
   }
-  /// Mean interval of the edges two turns away around an end of h, on either side; none where the faces end before.
+  /// Returns the mean interval of the second edges after h around an end of it, on either side; nothing if
+  /// faces end before.
   std::optional<double> beyond(HalfEdge h, bool at_tail) const {
     const HalfEdge twin = t_.twin(h);
     // Half-edges that leave that end: counter-clockwise from the edge's own one, clockwise from the one beside it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Levels in any number type (refine.h has what they are); double is compiled into the library.
+// Refinement in any number type (documented in refine.h); double is compiled into the library.
 #include <utility>
 
 #include "sublimit/core/detail/sparse_product.h"
@@ -18,7 +18,8 @@ SparseMatrixOf<T> product(const SparseMatrixOf<T>& A, const SparseMatrixOf<T>& B
   return A * B;
 }
 
-/// True if the limit of a face depends on its own corners alone: edge points on the edge, vertices that stay.
+/// True if the limit of a face depends only on its own corners: edge points depend on the edge, and vertices
+/// are kept.
 template <class T>
 bool needs_neighbors(const Scheme<T>& scheme) {
   const Index size = scheme.face_size() == 3 ? 3 : 4;
@@ -34,13 +35,14 @@ bool needs_neighbors(const Scheme<T>& scheme) {
   return false;
 }
 
-/// @throws UnsupportedTopology  sharpness that the scheme has no rule for
+/// Throws unless the scheme has a rule for all sharpness of a level.
+/// @throws UnsupportedTopology  sharpness without a rule
 void check_sharpness(const std::string& scheme, Sharpening sharpening, bool is_dual, const Topology& topology,
                      const Sharpness& sharpness, const Mesh& tags);
 
-/// Checks the sizes of faces for steps whose masks look beyond their element.
-/// @param corners  of the faces that the scheme takes; 0: any, all alike
-/// @throws UnsupportedTopology  naming the first face of another size
+/// Checks face sizes for steps whose masks depend on points beyond their element.
+/// @param corners  required face size; 0: any, but the same for all faces
+/// @throws UnsupportedTopology  names the first face of another size
 void check_wide_faces(const std::string& scheme, int corners, const Topology& topology, int level);
 
 template <class T>
@@ -61,7 +63,7 @@ LevelOf<T> control_level(const Scheme<T>& scheme, const Mesh& mesh, const Subdiv
   return level;
 }
 
-/// The level after `parent`, without its matrix.
+/// Returns the level after `parent`, without its matrix.
 /// @param on_step  called for each step: (step, topology, refinement, sharpness, child sharpness, new knots or null)
 template <class T, class OnStep>
 LevelOf<T> next_topology(const Scheme<T>& scheme, const LevelOf<T>& parent, const OnStep& on_step) {

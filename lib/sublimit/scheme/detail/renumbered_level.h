@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Faces of a level as a level of their own under other numbers: twins, non-manifold edges, the sharpness of edges and
-// holes stay what they are; a twin that is not among the faces is no more.
+// Renumbered parts of levels: some faces of a level as a new level. Twins, non-manifold edges, sharpness of
+// edges and holes are kept; half-edges whose twin is not among the faces have none.
 #include <algorithm>
 #include <span>
 #include <vector>
@@ -13,14 +13,15 @@ namespace sublimit {
 
 /// Faces under their new numbers.
 struct RenumberedFaces {
-  std::vector<Index> faces;    ///< their numbers in the whole
-  std::vector<Index> offsets;  ///< of their corners, #faces + 1
+  std::vector<Index> faces;    ///< number of each face in the whole
+  std::vector<Index> offsets;  ///< start of the corners of each face, #faces + 1
   std::vector<Index> corners;  ///< half-edges of the whole, face by face; a face may start at any of its corners
 };
 
-/// @param half    of a half-edge of the whole: its new number, -1 if it has none
-/// @param vertex  of a vertex of the whole: its new number
-/// @return  without a matrix; the sharpness of vertices is the caller's to fill
+/// Returns the part.
+/// @param half    returns the new number of a half-edge of the whole, or -1
+/// @param vertex  returns the new number of a vertex of the whole
+/// @return  a level without a matrix; the caller must fill the sharpness of vertices
 template <class Half, class Vertex>
 Level renumbered_level(const Level& whole, const RenumberedFaces& part, Index num_vertices, const Half& half,
                        const Vertex& vertex) {

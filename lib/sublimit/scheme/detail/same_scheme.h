@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Whether two values of `Scheme` are one scheme, so that limits found for one serve the other.
+// Comparison of schemes, to decide whether limits computed for one are valid for the other.
 #include <algorithm>
 
 #include "sublimit/scheme/scheme.h"
 
 namespace sublimit {
 
-/// True if two masks come from the same expression. Values that it has captured are not compared.
+/// True if two masks have the same function type. Captured values are not compared.
 template <class Function>
 bool is_alike(const Function& a, const Function& b) {
   return a.target_type() == b.target_type();
@@ -24,8 +24,8 @@ bool is_alike(const Step<T>& a, const Step<T>& b) {
          a.masks.wide_borders == b.masks.wide_borders && is_alike(a.creases, b.creases);
 }
 
-/// True if two schemes have the same name, options, steps and kinds of masks, preparation aside: it does not matter to
-/// limits of levels that need none. Calls no mask.
+/// True if two schemes have the same name, options, steps and kinds of masks. Preparation is ignored, since it
+/// does not affect limits of levels that need none. Calls no mask.
 template <class T>
 bool is_alike(const Scheme<T>& a, const Scheme<T>& b) {
   return a.name == b.name && a.chosen == b.chosen && a.period == b.period && a.corners == b.corners &&

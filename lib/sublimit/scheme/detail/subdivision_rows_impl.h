@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Some rows of a subdivision matrix, in any number type (subdivision_rows.h has what they are).
+// Single rows of a subdivision matrix, in any number type (documented in subdivision_rows.h).
 #include <span>
 #include <vector>
 

@@ -2,8 +2,8 @@
 #pragma once
 // Foot points: local minimisation of the distance from a point, starting at a place on a surface, on the same
 // square or triangle.
-#include "sublimit/source/linear_source.h"
 #include "sublimit/search/detail/search_domain.h"
+#include "sublimit/source/linear_source.h"
 
 namespace sublimit {
 

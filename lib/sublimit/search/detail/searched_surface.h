@@ -8,8 +8,8 @@
 
 #include "sublimit/nets/limit_cells.h"
 #include "sublimit/nets/piece_parts.h"
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/source/linear_source.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Sharpness one level on.
+// Sharpness of the next level.
 #include <utility>
 
 #include "sublimit/mesh/sharpness.h"
@@ -8,10 +8,11 @@
 
 namespace sublimit {
 
-/// Sharpness of the two halves, at its tail and at its head, of an edge that a primal split cuts.
+/// Returns the sharpness of the two halves, at its tail and at its head, of an edge that a primal split cuts.
 std::pair<float, float> sharpness_of_halves(const Sharpness& sharpness, const Topology& parent, Edge e);
 
-/// Sharpness of the child's edges and vertices; of other splits than primal ones only borders are sharp.
+/// Returns the sharpness of the edges and vertices of a child. For splits that are not primal, only borders are
+/// sharp.
 [[nodiscard]] Sharpness refine(const Sharpness& sharpness, const Topology& parent, const Refinement& refinement);
 
 }  // namespace sublimit

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the primal splits share: vertices and edges survive (an edge in two halves), so twins, fans and non-manifold
-// elements of the children follow from the parents' by arithmetic.
+// Common code of the primal splits. Vertices and edges survive (an edge as two halves), so twins, fans and
+// non-manifold elements of children are computed from those of parents by arithmetic.
 #include <algorithm>
 #include <span>
 #include <vector>
@@ -26,19 +26,19 @@ std::pair<HalfEdge, HalfEdge> ptq_halves(const Topology& parent, HalfEdge h);
 template <class First, class Second, class Inner>
 class PrimalHalves {
  public:
-  /// @param parent  which must stay
+  /// @param parent  must outlive this
   PrimalHalves(const Topology& parent, First first, Second second, Inner inner)
       : t_(parent), first_(first), second_(second), inner_(inner) {}
   PrimalHalves(const Topology&&, First, Second, Inner) = delete;
 
-  /// Twins of the two children of every half-edge, in `twin`.
+  /// Sets the twins of the children `first` and `second` of half-edge h.
   void set_twins(Index h, UninitializedVector<Index>& twin) const {
     const Index g = index(t_.twin(HalfEdge{h}));
     twin[first_(h)] = g < 0 ? -1 : second_(g);
     twin[second_(h)] = g < 0 ? -1 : first_(g);
   }
 
-  /// Non-manifold edges and vertices of the child.
+  /// Sets the non-manifold edges and vertices of the child.
   void set_nonmanifold(TopologyBuilder& b, const Refinement& r) const {
     if (t_.is_manifold()) return;
     for (Index e = 0; e < t_.num_edges(); ++e) {
@@ -65,9 +65,9 @@ class PrimalHalves {
     }
   }
 
-  /// Half-edge to start from and number of corners of the children of vertices and edges; `corners_at_edge` is the
-  /// number of child corners that one half-edge contributes at its edge's point. Inside, fans start at their least
-  /// half-edge, as those of meshes from files do: sums around a vertex have the same bits either way.
+  /// Sets first half-edge and number of corners of the children of vertices and edges. Interior fans start at
+  /// their least half-edge, as in meshes from files, so that sums around a vertex have the same bits.
+  /// @param corners_at_edge  number of child corners that one half-edge has at its edge's point
   void set_fans(TopologyBuilder& b, const Refinement& r, Index corners_at_edge) const {
     parallel_for(t_.num_vertices(), [&](std::int64_t i) {
       const Vertex v{static_cast<Index>(i)};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the dual splits and sqrt3 share: the mesh as sheets. Edges without twins are borders, a non-manifold edge is a
-// border of each of its faces, and the faces around a vertex come as fans.
+// Common code of the dual splits and sqrt3, which treat a mesh as separate sheets: edges without twins are
+// borders, a non-manifold edge is a border of each of its faces, and the faces around a vertex form fans.
 #include <algorithm>
 #include <vector>
 
@@ -20,7 +20,7 @@ Refinement refine_keep(const Topology& parent);
 
 class Sheets {
  public:
-  /// @param topology  which must stay
+  /// @param topology  must outlive this
   explicit Sheets(const Topology&& topology) = delete;
   explicit Sheets(const Topology& topology) : t_(topology) {
     const Index edges = t_.num_edges();
@@ -90,7 +90,8 @@ class Sheets {
   std::vector<Index> edge_list_, borders_, fan_start_, fan_size_;
 };
 
-/// Hands the children's arrays over, with fans found the slow way where sheets meet in a vertex.
+/// Makes the topology from the arrays of children. If sheets meet in a vertex, fans are found by a slower
+/// search.
 inline Topology built(TopologyBuilder&& b, Index num_vertices, bool needs_fans) {
   if (needs_fans) b.find_fans(num_vertices);
   return std::move(b).build();

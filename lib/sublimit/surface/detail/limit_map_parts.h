@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "sublimit/base/detail/found_once.h"
+#include "sublimit/neighborhood/regular_faces.h"
 #include "sublimit/surface/detail/corner_limits.h"
 #include "sublimit/surface/detail/patch_tree.h"
 #include "sublimit/surface/limit_map.h"
-#include "sublimit/neighborhood/regular_faces.h"
 
 namespace sublimit {
 

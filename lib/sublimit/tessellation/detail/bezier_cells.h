@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A limit surface as Bezier cells: its polynomials as they are, each one cell; what is no polynomial, as around
-// extraordinary vertices, cut until bilinear quadrilaterals (triangles) are within a distance that is proved.
+// Limit surfaces as Bezier cells: one exact cell per polynomial, and bilinear quadrilaterals (triangles) within
+// a proved distance elsewhere, as around extraordinary vertices.
 //
-// Polynomials that meet along the diagonal of a square, as those of mid-edge, become two triangles of twice the degree.
+// Two polynomials that meet along the diagonal of a square, as in mid-edge schemes, become two triangles of
+// twice the degree.
 #include "sublimit/tessellation/detail/flat_cells.h"
 
 namespace sublimit {
 
 struct BezierCell {
   Index address = 0;
-  CellCorners corners;  ///< of the cell's own (0, 0), (1, 0), (1, 1), (0, 1); of triangles (0, 0), (1, 0), (0, 1)
+  CellCorners corners;  ///< corners (0, 0), (1, 0), (1, 1), (0, 1) of the cell; for triangles (0, 0), (1, 0), (0, 1)
   bool triangle = false, exact = true;
-  int degree = 0;  ///< in u and in v; of triangles the total one
-  Points net;      ///< Bernstein coefficients by i, then j: i, j <= degree; of triangles i + j <= degree
+  int degree = 0;  ///< degree in u and in v; for triangles the total degree
+  Points net;      ///< Bernstein coefficients by i, then j: i, j <= degree; for triangles i + j <= degree
 };
 
 struct BezierCells {
-  std::vector<BezierCell> cells;  ///< in the order of addresses; holes are left out
-  std::int64_t exact = 0;         ///< how many are
-  double bound = 0;               ///< proved, for those that are not
+  std::vector<BezierCell> cells;  ///< cells by ascending address, without holes
+  std::int64_t exact = 0;         ///< number of exact cells
+  double bound = 0;               ///< proved distance of the others from the surface
 };
 
-/// @param chord      for cells that are not exact, > 0
-/// @param max_cells  about
-/// @throws InvalidParameter, UnsupportedTopology, ResourceError  as `flat_cells`
-/// @note  Cells are not cut for the sake of their neighbours: a bilinear one meets a curved one within the chord.
+/// Returns the cells of a surface.
+/// @param chord      largest distance of cells that are not exact, > 0
+/// @param max_cells  approximate limit of the number of cells
+/// @throws InvalidParameter, UnsupportedTopology, ResourceError  see `flat_cells`
+/// @note  Cells are not cut to match their neighbours: a bilinear cell meets a curved one only within the
+///        chord.
 BezierCells bezier_cells(const LimitMap& surface, const Points& control, double chord,
                          std::int64_t max_cells = std::int64_t{1} << 23);
 

@@ -17,9 +17,9 @@ struct PolygonCorner {
 void add_triangle(Index address, const PolygonCorner& a, const PolygonCorner& b, const PolygonCorner& c,
                   Tessellation& made);
 
-/// Cuts off the roundest corner that has an area in parameters, until a triangle is left. A convex polygon, corners in
-/// the middle of sides included, always has one.
-/// @param polygon  of points of `made`; used up
+/// Cuts a convex polygon into triangles: repeatedly cuts off the corner with the best shape among those with an
+/// area in parameters, which always exists, even if corners lie in the middle of sides.
+/// @param polygon  indices of points of `made`; modified
 void triangulate(Index address, std::vector<PolygonCorner>& polygon, Tessellation& made);
 
 }  // namespace sublimit

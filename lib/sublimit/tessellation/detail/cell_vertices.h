@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Points at corners of cells, by number, each with one of its places.
+// Numbering of the points at corners of cells, with one place for each.
 #include <vector>
 
 #include "sublimit/nets/place_numbers.h"
 
 namespace sublimit {
 
+/// Assigns consecutive numbers to corners of cells.
 class CellVertices {
  public:
-  /// @param parts  which must stay
+  /// @param parts  must outlive this
   explicit CellVertices(const LimitMap::Parts& parts) : numbers_(parts) {}
   explicit CellVertices(const LimitMap::Parts&&) = delete;
 
+  /// Returns the number of a corner, a new one if it has none.
   Index add(Index address, const CellCorner& c) {
     const Index number = numbers_.add(address, c);
     if (number == std::ssize(places_)) places_.push_back(c.in(address));
     return number;
   }
-  /// Or -1.
+  /// Returns the number of a corner, or -1 if it has none.
   Index find(Index address, const CellCorner& c) const { return numbers_.find(address, c); }
   const std::vector<Place>& places() const { return places_; }
 

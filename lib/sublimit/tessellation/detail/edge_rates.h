@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Segments that edges of a level are to have, and the edges that sides of addresses lie on.
+// Tessellation rates of the edges of a level (numbers of segments), and the edges of the sides of addresses.
 #include <array>
 #include <span>
 
@@ -8,15 +8,16 @@
 
 namespace sublimit {
 
-/// @throws InvalidParameter  another number of rates than edges, one below 1 or above 2^22
+/// Throws unless rates are valid.
+/// @throws InvalidParameter  another number of rates than edges, a rate below 1 or above 2^22
 void check_edge_rates(const Topology& topology, std::span<const Index> rates);
 
-/// The edge along a side of an address: all of it, or as a side of a square of a polygon one half.
+/// The edge along a side of an address: a whole edge, or one half for a square of a polygon.
 struct SideEdge {
-  enum class Of { whole, first_half, second_half, none } of = Of::none;  ///< none: inside of a polygon
+  enum class Of { whole, first_half, second_half, none } of = Of::none;  ///< none: the side is inside a polygon
   Edge edge{};
 };
-/// Sides counter-clockwise from (0, 0); of triangles three.
+/// Returns the edges along the sides of an address, counter-clockwise from (0, 0); three for triangles.
 std::array<SideEdge, 4> side_edges(const Topology& topology, const Addresses& addresses, Index address);
 
 }  // namespace sublimit

@@ -17,9 +17,9 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/finite_points.h"
+#include "sublimit/nets/net_derivatives.h"
 #include "sublimit/surface/detail/limit_map_parts.h"
 #include "sublimit/surface/detail/limit_patches.h"
-#include "sublimit/nets/net_derivatives.h"
 #include "sublimit/tessellation/detail/edge_rates.h"
 
 namespace sublimit {

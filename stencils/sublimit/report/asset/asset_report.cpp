@@ -6,12 +6,12 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/limit/detail/limit_cache.h"
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/report/asset/curvature_statistics.h"
 #include "sublimit/report/asset/display_surface.h"
 #include "sublimit/report/asset/seams.h"
 #include "sublimit/report/asset/undefined_normals.h"
 #include "sublimit/report/asset/warnings.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/source/curvature.h"
 #include "sublimit/report/asset/curvature_statistics.h"
+#include "sublimit/source/curvature.h"
 
 #include <Eigen/Geometry>
 

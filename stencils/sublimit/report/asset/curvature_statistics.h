@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Statistics of the curvature of a limit over its area, from samples in the middle of equal cells of every face.
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/report/asset/asset_report.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit::asset {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // The limit as a mesh for pictures, with its curvature.
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/report/asset/curvature_statistics.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit::asset {
 

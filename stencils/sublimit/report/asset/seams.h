@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Deviations of patches where they meet.
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/report/asset/seam_samples.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit::asset {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/source/curvature.h"
 #include "sublimit/report/asset/surface_places.h"
+#include "sublimit/source/curvature.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Vertices where the limit has no normal: not for want of a plane, but because the control points make it degenerate.
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/report/asset/inventory.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit::asset {
 

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sublimit/source/linear_source.h"
 #include "sublimit/patches/curve_set.h"
 #include "sublimit/patches/patch_set.h"
+#include "sublimit/source/linear_source.h"
 #include "sublimit/stencils/files/csv_rows.h"
 
 namespace sublimit {

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "sublimit/base/detail/atomic_file.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/stencils/files/csv_rows.h"
 #include "sublimit/stencils/files/patch_places.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit {
 

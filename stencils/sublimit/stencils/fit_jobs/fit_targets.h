@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "sublimit/fit/targets.h"
-#include "sublimit/source/address.h"
 #include "sublimit/patches/patch_set.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit {
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "sublimit/source/linear_source.h"
 #include "sublimit/patches/constructions/spline_net.h"
+#include "sublimit/source/linear_source.h"
 #include "sublimit/stencils/gallery/patch_data.h"
 #include "sublimit/stencils/picture/picture.h"
 

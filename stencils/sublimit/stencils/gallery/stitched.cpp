@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "sublimit/io/detail/obj.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/patches/detail/interval_mesh.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/schemes/schemes.h"
@@ -16,6 +15,7 @@
 #include "sublimit/stencils/gallery/patch_exhibits.h"
 #include "sublimit/stencils/gallery/patch_layers.h"
 #include "sublimit/stencils/picture/picture_mesh.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit::gallery {
 namespace {

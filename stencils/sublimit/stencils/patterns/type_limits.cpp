@@ -6,8 +6,8 @@
 
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/eval/pattern_table.h"
-#include "sublimit/surface/detail/limit_map_parts.h"
 #include "sublimit/stencils/patterns/point_status.h"
+#include "sublimit/surface/detail/limit_map_parts.h"
 
 namespace sublimit {
 namespace {

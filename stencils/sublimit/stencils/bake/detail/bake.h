@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "sublimit/eval/baked_table.h"
-#include "sublimit/source/address.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/scheme/refine.h"
+#include "sublimit/source/address.h"
 #include "sublimit/stencils/patterns/patterns.h"
 
 namespace sublimit {

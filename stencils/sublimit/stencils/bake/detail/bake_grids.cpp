@@ -4,11 +4,11 @@
 #include <limits>
 
 #include "sublimit/base/detail/memory.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/stencils/bake/detail/bake_patterns.h"
 #include "sublimit/stencils/bake/detail/bake_rows.h"
 #include "sublimit/stencils/bake/detail/pattern_counts.h"
 #include "sublimit/stencils/patterns/point_status.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit {
 

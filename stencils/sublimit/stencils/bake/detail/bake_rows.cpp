@@ -7,8 +7,8 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/stencils/patterns/point_status.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit {
 namespace {

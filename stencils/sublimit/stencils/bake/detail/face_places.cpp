@@ -2,8 +2,8 @@
 #include "sublimit/stencils/bake/detail/face_places.h"
 
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/source/address.h"
 #include "sublimit/neighborhood/piece.h"
+#include "sublimit/source/address.h"
 
 namespace sublimit {
 namespace {

@@ -2,9 +2,9 @@
 #include "sublimit/stencils/jobs/detail/tessellated_job.h"
 
 #include "sublimit/base/error.h"
-#include "sublimit/surface/limit_surface.h"
 #include "sublimit/stencils/files/tessellation_mesh.h"
 #include "sublimit/stencils/jobs/detail/refined_job.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
 

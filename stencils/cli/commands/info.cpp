@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "support/common.h"
+#include "support/free_form.h"
+#include "support/normal_surfaces.h"
+#include "support/recipes.h"
+#include "sublimit/stencils/jobs/detail/mesh_info_json.h"
+#include "sublimit/stencils/jobs/detail/mesh_job.h"
+
+namespace sublimit::cli {
+namespace {
+
+std::string to_text(const MeshInfo::Histogram& histogram) {
+  std::string text;
+  for (const auto& [key, count] : histogram) text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", key, count);
+  return text.empty() ? "none" : text;
+}
+
+std::string to_text(const Eigen::Vector3d& x) { return fmt::format("({}, {}, {})", x[0], x[1], x[2]); }
+
+/// Nothing where only rounding is left.
+std::string plus_minus(double error) { return error > 0 ? fmt::format(" (+- {:.1e})", error) : ""; }
+
+void print(const LimitIntegrals& limit) {
+  fmt::print("  area               {}{}\n", limit.area, plus_minus(limit.area_error));
+  if (limit.centroid)
+    fmt::print("    centroid         {}{}\n", to_text(*limit.centroid), plus_minus(limit.centroid_error));
+  if (!limit.solid) {
+    fmt::print("  volume             none: {}\n", limit.why_no_solid);
+    return;
+  }
+  const SolidIntegrals& solid = *limit.solid;
+  fmt::print("  volume             {}{}\n", solid.volume, plus_minus(solid.volume_error));
+  fmt::print("    centroid         {}{}\n", to_text(solid.centroid), plus_minus(solid.centroid_error));
+  for (int i = 0; i < 3; ++i)
+    fmt::print("    {:<16} {}{}\n", i == 0 ? "inertia" : "", to_text(solid.inertia.row(i).transpose()),
+               i == 0 ? plus_minus(solid.inertia_error) : "");
+}
+
+void print(const MeshInfo& info, const std::string& name) {
+  fmt::print("{}\n", name);
+  fmt::print("  {} vertices, {} edges, {} faces; Euler characteristic {}, {} component(s)\n", info.vertices, info.edges,
+             info.faces, info.euler_characteristic, info.components);
+  fmt::print("  face sizes         {}\n", to_text(info.face_sizes));
+  if (info.why_not.empty())
+    fmt::print("  addresses          faces 0 to {} of `sublimit sample`: {}\n", info.addresses - 1,
+               info.triangles ? "the triangles" : "a quad is one, another polygon one a corner");
+  fmt::print("  interior valences  {}\n", to_text(info.interior_valences));
+  fmt::print("  boundary valences  {}\n", to_text(info.boundary_valences));
+  fmt::print("  boundary loops     {}\n", info.boundary_loops);
+  fmt::print("  tags               {} creases, {} corners, {} holes\n", info.creases, info.corners, info.holes);
+  fmt::print("  rules              boundary {}, creasing {}, triangles {}\n", info.boundary, info.creasing,
+             info.smooth_triangles);
+  for (const MeshInfo::Channel& channel : info.channels)
+    fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name, channel.values,
+               channel.numbers, info.face_varying);
+  if (!info.scheme.empty()) {
+    fmt::print("  {:<18} {}\n", info.scheme + ":",
+               info.why_not.empty() ? "takes this mesh" : "no: " + in_words_of_the_program(info.why_not));
+    for (size_t k = 0; k < info.predicted_bytes.size(); ++k)
+      fmt::print("    to level {}         about {:.1f} MB\n", k + 1, info.predicted_bytes[k] / 1e6);
+  }
+  if (info.limit) print(*info.limit);
+  for (const std::string& warning : info.warnings) fmt::print("  warning: {}\n", warning);
+  constexpr size_t most = 20;
+  for (size_t i = 0; i < std::min(info.faults.size(), most); ++i) fmt::print("  fault: {}\n", info.faults[i]);
+  if (info.faults.size() > most) fmt::print("  and {} faults more (--json lists all)\n", info.faults.size() - most);
+  if (info.faults.empty()) fmt::print("  no faults: a consistently wound manifold\n");
+}
+
+/// Integrals over the limit are those of a mesh with a scheme that has a matrix.
+void check_limit(const Common& common) {
+  if (common.scheme.empty()) throw InvalidOption("--limit: of which scheme? add -s SCHEME");
+  if (is_recipe_job(common) || is_normal_job(common))
+    throw InvalidOption("--limit: integrals are known of subdivision surfaces, not of recipes and " + common.scheme);
+}
+
+int run(const Common& common, bool as_json, bool limit) {
+  if (limit) check_limit(common);
+  if (is_recipe_job(common)) {
+    print_recipes(common, read_recipes(common.mesh), as_json);
+    return 0;
+  }
+  if (common.scheme.empty() && has_free_form(common.mesh)) {
+    const FreeForm shapes = read_free_form(common.mesh);
+    print_free_form(common, shapes, as_json);
+    if (shapes.num_faces == 0 || as_json) return 0;
+  }
+  Common quiet = common;
+  quiet.quiet = true;
+  Progress progress(common.quiet);
+  const bool normals = is_normal_job(common);
+  if (normals) {
+    check_normal_job(common, false);
+    quiet.scheme.clear();
+    quiet.options.clear();
+  }
+  const Loaded loaded = load(quiet, progress);  // warnings and faults are what this subcommand prints
+  progress.step("");
+  MeshInfo info = mesh_info(loaded, normals);
+  if (limit && info.why_not.empty()) {
+    progress.step("integrating over the limit");
+    naming_mesh(common, [&] { info.limit = limit_integrals(loaded); });
+    progress.step("");
+  }
+  if (normals) {
+    info.scheme = common.scheme;
+    info.why_not = why_no_normal_surface(common, loaded.mesh);
+  }
+  if (as_json)
+    fmt::print("{}\n", to_json(info, common.mesh).dump(2));
+  else
+    print(info, common.mesh);
+  return info.why_not.empty() ? 0 : 1;  // whether the scheme takes the mesh is a question, and the answer may be no
+}
+
+}  // namespace
+
+Command add_info(CLI::App& app) {
+  auto* command = app.add_subcommand("info", "Report counts, valences, boundaries, tags and every fault of a mesh");
+  auto common = std::make_shared<Common>();
+  auto as_json = std::make_shared<bool>(false);
+  auto limit = std::make_shared<bool>(false);
+  add_mesh(*command, *common, false);
+  command->add_flag(
+      "--limit", *limit,
+      "Area of the limit; of closed surfaces volume, centroid and inertia of the solid; errors where more "
+      "than rounding is left (with -s)");
+  command->add_flag("--json", *as_json, "As JSON");
+  command->footer(
+      "Examples:\n  sublimit info cage.obj\n  sublimit info cage.obj -s loop --json\n"
+      "  sublimit info cage.obj -s catmull-clark --limit\n"
+      "\nOf an .obj with free-form curves and surfaces: bases, degrees, knots, continuity, weights, collapsed sides, trims.\n"
+      "Of recipes (.json): kinds, faces or segments, control points, whether there is an exact net.");
+  return [=] { return run(*common, *as_json, *limit); };
+}
+
+}  // namespace sublimit::cli

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "support/common.h"
+#include "support/curves.h"
+#include "support/free_form.h"
+#include "support/normal_surfaces.h"
+#include "sublimit/base/error.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/files/level_files.h"
+
+namespace sublimit::cli {
+namespace {
+
+struct LimitOptions {
+  Common common;
+  int levels = 0;
+  bool normals = false, closed = false;
+  std::string output;
+};
+
+int run(const LimitOptions& options) {
+  if (is_curve_job(options.common))
+    return limit_curves({&options.common, options.levels, options.output, "", options.closed, options.normals});
+  if (is_normal_job(options.common)) {
+    check_normal_job(options.common, options.closed);
+    return write_normal_surface({&options.common, options.levels, options.output, "", options.normals});
+  }
+  if (is_free_form_job(options.common)) {
+    if (options.closed) throw InvalidOption("--closed is for curves");
+    limit_free_form(options.common, options.levels, options.output, options.normals);
+    return 0;
+  }
+  check_mesh_job(options.common, options.closed);
+  check_output_path(options.output, {".obj", ".ply"});
+  Progress progress(options.common.quiet);
+  const Loaded loaded = load(options.common, progress);
+  std::vector<Level> levels;
+  std::vector<FaceVaryingLevel> channel;
+  Points limit_values;
+  LimitMatrices limit;
+  LimitCache cache(*loaded.scheme);
+  naming_mesh(options.common, [&] {
+    levels = refined_levels(loaded, options.levels, progress);
+    progress.step("limits");
+    limit = limit_matrices(levels, cache);
+    channel = refined_channel(options.common, loaded, levels, options.output);
+    if (channel.empty()) return;
+    LimitCache channel_cache(face_varying_scheme(*loaded.scheme, loaded.face_varying));
+    limit_values = apply(limit_matrices(channel.back().level, channel_cache).position,
+                         refined_values(channel, loaded.mesh.face_varying[0].values));
+  });
+  const Points points = refined_points(levels, loaded.mesh.positions);
+  const LimitPoints at_limit = limit_points(limit, levels.back().topology(), points);
+  progress.step("writing " + options.output);
+  const bool obj = file_extension(options.output) == ".obj";
+  Mesh out = limit_mesh(levels.back(), limit, at_limit,
+                        !options.normals ? Normals::none
+                        : obj            ? Normals::per_corner
+                                         : Normals::per_vertex);
+  if (!channel.empty()) add_channel(out, channel.back(), loaded.mesh.face_varying[0].name, limit_values);
+  write_mesh(options.output, out, progress.bytes_written());
+  progress.step("");
+  if (!options.common.quiet) {
+    const auto without = std::count(at_limit.status.begin(), at_limit.status.end(), LimitStatus::undefined_normal);
+    fmt::print("{}: {} limit points of level {}, {} types of neighbourhood, {} of {} vertex sides without a normal\n",
+               options.output, at_limit.position.rows(), options.levels, cache.num_types(), without,
+               at_limit.status.size());
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command add_limit(CLI::App& app) {
+  auto* command = app.add_subcommand("limit", "Move the vertices of a level to the limit surface");
+  auto options = std::make_shared<LimitOptions>();
+  add_mesh(*command, options->common, false);
+  command->add_option("-l,--levels", options->levels, "Level whose vertices are moved (default 0, the control mesh)");
+  command->add_flag("--normals", options->normals,
+                    "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply");
+  command->add_option("-o,--output", options->output, "OUT.obj or OUT.ply; faces that are holes are left out")
+      ->required();
+  add_closed(*command, options->closed);
+  command->footer(
+      "Examples:\n"
+      "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.obj\n"
+      "  sublimit limit cage.obj -s loop -o control_points_at_the_limit.ply\n"
+      "  sublimit limit cage.obj -s doo-sabin -l 2 -o surface.ply\n"
+      "\nCurves: MESH is a .csv of points or an .obj with lines, OUT a .csv or .obj; --normals adds unit tangents as columns\n"
+      "tx,ty,... of a .csv, empty where there is none:\n"
+      "  sublimit limit polygon.csv -s four-point -l 4 --normals -o curve.csv\n"
+      "\nFree-form surfaces of an .obj, without -s: control points of the nets of a level, moved to where they tend to:\n"
+      "  sublimit limit teapot.obj -l 3 --normals -o surface.ply\n"
+      "\nhermite-incentre takes points with unit tangents, x,y,tx,ty or x,y,z,tx,ty,tz; its points of a level are on the\n"
+      "limit, and are placed on its exact arcs.\n"
+      "\nRecipes (.json, see `sublimit construct --help`) stand wherever free-form surfaces do, and, of kinds nielson and\n"
+      "piper, meshes with normals, without -s.");
+  return [=] { return run(*options); };
+}
+
+}  // namespace sublimit::cli

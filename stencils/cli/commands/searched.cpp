@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/searched.h"
+
+#include "support/free_form.h"
+#include "support/memory_limit.h"
+#include "sublimit/search/detail/searched_patches.h"
+#include "sublimit/search/detail/searched_surface.h"
+
+namespace sublimit::cli {
+
+void with_searched_surface(const Common& common, bool free_form, Progress& progress,
+                           const std::function<void(const SearchedSurface&)>& search) {
+  if (free_form) {
+    refuse_mesh_options(common);
+    limit_threads(common);
+    progress.step("reading " + common.mesh);
+    const LoadedPatches loaded = load_patches(common);
+    naming_mesh(common, [&] { search(SearchedPatches(loaded.patches, loaded.columns)); });
+    return;
+  }
+  const Loaded loaded = load(common, progress);
+  check_mesh_memory(common.mesh, loaded.mesh);
+  naming_mesh(common, [&] {
+    const LimitMap surface(*loaded.scheme, loaded.mesh, loaded.rules);
+    search(SearchedLimit(surface, loaded.mesh.positions));
+  });
+}
+
+}  // namespace sublimit::cli

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The surface that `closest` and `intersect` search: the limit of a mesh, or the patches of a file, which take no
+// scheme.
+#include <functional>
+
+#include "support/common.h"
+#include "sublimit/search/detail/searched_surface.h"
+
+namespace sublimit::cli {
+
+/// Reads it, and calls search(surface). Errors name the file.
+/// @param free_form  `is_free_form_job`, asked for before other files are read
+void with_searched_surface(const Common& common, bool free_form, Progress& progress,
+                           const std::function<void(const SearchedSurface&)>& search);
+
+}  // namespace sublimit::cli

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// `sublimit step`: limits as files of CAD programs.
+#include <fmt/core.h>
+
+#include <memory>
+#include <numbers>
+
+#include "support/free_form.h"
+#include "support/normal_surfaces.h"
+#include "commands/step_job.h"
+#include "sublimit/base/error.h"
+#include "sublimit/cad/limit_model.h"
+#include "sublimit/integrals/limit_integrals.h"
+
+namespace sublimit::cli {
+namespace {
+
+/// Without one a hundred-thousandth of the diagonal.
+double tolerance_of(const std::string& text, double diagonal) {
+  return distance_option("--tolerance", text.empty() ? "0.001%" : text, diagonal);
+}
+
+nlohmann::ordered_json report_of(const StepJob& job, const LimitModel& model, const CadFile& file, double tolerance,
+                                 const LimitIntegrals& exact) {
+  const QuadMeasures& m = model.measures;
+  nlohmann::ordered_json json{{"mesh", job.common.mesh},
+                              {"scheme", job.common.scheme},
+                              {"output", job.output},
+                              {"solids", file.solids},
+                              {"shells", file.shells},
+                              {"valid", file.is_valid},
+                              {"faces_before_packing", model.quads},
+                              {"faces", model.boundary.faces.size()},
+                              {"edges", model.boundary.edges.size()},
+                              {"vertices", model.boundary.vertices.rows()},
+                              {"caps", model.caps},
+                              {"sharp_edges", m.sharp_edges},
+                              {"tolerance", tolerance},
+                              {"tolerance_met", model.met},
+                              {"deviation", model.deviation},
+                              {"gap", m.largest_gap},
+                              {"angle_between_exact_faces", m.exact_angle},
+                              {"angle_at_caps", m.cap_angle},
+                              {"angle_between_caps", m.between_caps},
+                              {"largest_angle_at", {m.worst[0], m.worst[1], m.worst[2]}},
+                              {"area", {{"file", m.area}, {"limit", exact.area}}},
+                              {"volume", nullptr}};
+  if (file.shells == 0 && exact.solid) json["volume"] = {{"file", m.volume}, {"limit", exact.solid->volume}};
+  return json;
+}
+
+int run(const StepJob& job) {
+  if (is_normal_job(job.common) || is_free_form_job(job.common)) return step_patches(job);
+  tolerance_of(job.tolerance, 1);  // a wrong number is told before the mesh is read
+  if (!job.join.empty() && job.join != "g0" && job.join != "g1")
+    throw InvalidOption(fmt::format("--join {}: caps join their neighbours by g0 or g1", job.join));
+  CadFileEntry* const entry = prepare_step(job);
+  Progress progress(job.common.quiet);
+  const Loaded loaded = load(job.common, progress);
+  const Points& control = loaded.mesh.positions;
+  double tolerance = 0;
+  if (control.rows() > 0)
+    tolerance = tolerance_of(job.tolerance, (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm());
+  if (!(tolerance > 0)) throw InvalidMesh(job.common.mesh + ": no extent that --tolerance could be a part of");
+  LimitModel model;
+  LimitIntegrals exact;
+  naming_mesh(job.common, [&] {
+    const LimitMap surface(*loaded.scheme, loaded.mesh, loaded.rules);
+    progress.step("cutting the limit into patches");
+    LimitModelOptions wanted;
+    wanted.tolerance = tolerance;
+    wanted.join_smoothly = job.join == "g1";
+    wanted.pack = !job.no_packing;
+    wanted.face_names = loaded.mesh.face_names;
+    wanted.progress = [&](const std::string& what) { progress.note(what); };
+    model = limit_model(surface, control, wanted);
+    if (model.boundary.faces.empty()) throw InvalidMesh("no faces to write");
+    progress.step("measuring the limit");
+    if (!job.report.empty()) exact = limit_integrals(surface, control);
+  });
+  const CadFile file = cad_file_of(job, entry, model.boundary, progress);
+  write_step(job, file, report_of(job, model, file, tolerance, exact), progress);
+  const int status = model.met && file.is_valid ? 0 : 1;
+  if (job.common.quiet) return status;
+  const QuadMeasures& m = model.measures;
+  fmt::print("{}: {} solids, {} open shells; {} faces of {} patches, {} caps; {}\n", job.output, file.solids,
+             file.shells, model.boundary.faces.size(), model.quads, model.caps,
+             file.is_valid ? "valid" : "not valid by OpenCASCADE's check");
+  constexpr double degrees = 180 / std::numbers::pi;
+  fmt::print(
+      "  caps off the limit by {:.3g} at most; angles {:.3g} degrees at their borders, {:.3g} between them, {:.3g} "
+      "between exact faces\n",
+      model.deviation, m.cap_angle * degrees, m.between_caps * degrees, m.exact_angle * degrees);
+  if (!model.met) fmt::print("  tolerance {:.3g}: not met\n", tolerance);
+  return status;
+}
+
+}  // namespace
+
+Command add_step(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("step", "Write limits for CAD: exact B-spline faces, solids where closed (STEP, BREP)");
+  auto job = std::make_shared<StepJob>();
+  add_mesh(*command, job->common, false);
+  command->add_option("--tolerance", job->tolerance,
+                      "Largest distance of caps around extraordinary vertices from the limit: in the mesh's unit, or "
+                      "as 0.1% of its diagonal (default 0.001%). Of free-form surfaces: of sides that are one edge "
+                      "(default 1e-9 of the diagonal)");
+  command->add_option(
+      "--join", job->join,
+      "How caps join exact faces: g0 (default), or g1, with common tangent planes (schemes of quadrilaterals)");
+  command->add_flag("--no-packing", job->no_packing, "A face for each patch");
+  command->add_option("--report", job->report, "OUT.json: faces, deviation, angles, area and volume of file and limit");
+  command->add_option("-o,--output", job->output, "OUT.step, OUT.stp or OUT.brep; faces that are holes are left out")
+      ->required();
+  command->footer(
+      "Examples:\n"
+      "  sublimit step cage.obj -s catmull-clark -o surface.step\n"
+      "  sublimit step cage.obj -s loop --tolerance 0.01% -o surface.brep --report report.json\n"
+      "  sublimit step teapot.obj -o teapot.step\n"
+      "\nRegular faces are exact, and packed into the largest B-splines that keep knots and smoothness; a triangle of loop is\n"
+      "three biquartic patches. Around extraordinary vertices there are rings of exact patches, as many as leave a cap within\n"
+      "the tolerance. Creases and borders are edges. Names of groups (else objects) of an .obj are those of their faces in STEP\n"
+      "files; faces of different names stay apart. Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.\n"
+      "\nFree-form surfaces of an .obj and recipes (.json, see `sublimit construct --help`), without -s: a face for each\n"
+      "patch, its own B-spline, rational ones with weights, three faces for a Bezier triangle. Sides that are one\n"
+      "curve in one parameter are one edge, closed sets of patches solids; names of groups, objects and recipes are those\n"
+      "of faces in STEP files. Surfaces that are no B-spline (screw; gregory with twists that differ; nielson) are refused,\n"
+      "trimming loops left out. -s piper takes triangles with normals: three Bezier triangles each.");
+  return [=] { return run(*job); };
+}
+
+}  // namespace sublimit::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/step_job.h"
+
+#include <filesystem>
+
+#include "support/loaded_library.h"
+#include "sublimit/base/detail/atomic_file.h"
+#include "sublimit/base/error.h"
+#include "sublimit/io/detail/file_extension.h"
+
+namespace sublimit::cli {
+namespace {
+
+CadFileEntry* cad_writer() {
+  return reinterpret_cast<CadFileEntry*>(loaded_function(cad_part, opencascade_library, cad_file_entry, "CAD files"));
+}
+
+void write_whole_file(const std::string& path, const std::string& text, Progress& progress) {
+  AtomicFile file(path, progress.bytes_written());
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace
+
+CadFileEntry* prepare_step(const StepJob& job) {
+  check_output_path(job.output, {".step", ".stp", ".brep"});
+  if (!job.report.empty()) check_output_path(job.report, {".json"});
+  if (!job.report.empty()) check_not_sidecar("--report", job.report, job.common.mesh);
+  return cad_writer();
+}
+
+CadFile cad_file_of(const StepJob& job, CadFileEntry* entry, const BoundaryModel& model, Progress& progress) {
+  progress.step("making a shape");
+  CadFile file;
+  entry(model, std::filesystem::path(job.output).stem().string(), file_extension(job.output) != ".brep", file);
+  return file;
+}
+
+void write_step(const StepJob& job, const CadFile& file, const nlohmann::ordered_json& report, Progress& progress) {
+  progress.step("writing " + job.output);
+  write_whole_file(job.output, file.bytes, progress);
+  if (!job.report.empty()) write_whole_file(job.report, report.dump(2) + "\n", progress);
+  progress.step("");
+}
+
+}  // namespace sublimit::cli

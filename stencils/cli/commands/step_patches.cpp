@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// `sublimit step` of patches: free-form surfaces, recipes, triangles with normals.
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <iterator>
+#include <numbers>
+
+#include "support/free_form.h"
+#include "support/normal_surfaces.h"
+#include "support/recipes.h"
+#include "commands/step_job.h"
+#include "sublimit/base/error.h"
+#include "sublimit/cad/patch_model.h"
+#include "sublimit/cad/piper_patches.h"
+#include "sublimit/stencils/recipes/detail/recipe_sources.h"
+
+namespace sublimit::cli {
+namespace {
+
+std::string name_of(const FreeForm& shapes, const FreeFormSurface& surface) {
+  const Index named = surface.group >= 0 ? surface.group : surface.object;
+  return named >= 0 ? shapes.names[size_t(named)] : std::string();
+}
+
+std::vector<NamedPatch> free_form_surfaces(const Common& common) {
+  const FreeForm shapes = load_free_form(common);
+  const FreeFormPatches found = load_free_form_patches(common, shapes);
+  std::vector<NamedPatch> patches;
+  for (size_t p = 0; p < shapes.surfaces.size(); ++p)
+    patches.push_back({found.patches.members()[p].patch, found.patches.columns_of(p, found.columns),
+                       found.patches.coordinates(), name_of(shapes, shapes.surfaces[p]),
+                       fmt::format("{}:{}: patch {}", common.mesh, found.line[p], p)});
+  return patches;
+}
+
+std::vector<NamedPatch> normal_triangles(const NormalSurface& surface, const std::string& name) {
+  if (surface.scheme.name != "piper")
+    throw UnsupportedTopology(surface.common.mesh + ": " + surface.scheme.name +
+                              " is no B-spline, and CAD files have no other surface for it; piper is a polynomial "
+                              "surface through the same points and normals");
+  return piper_patches(surface.data, name, surface.common.mesh);
+}
+
+/// Nets where a kind has one: a polynomial by points is a B-spline then.
+std::vector<NamedPatch> recipe_surfaces(const Common& common, Progress& progress) {
+  std::vector<Recipe> recipes = load_recipes(common);
+  std::vector<NamedPatch> patches;
+  for (const Recipe& recipe : recipes) {
+    if (const RecipeSurface* const surface = recipe.surface()) {
+      NamedPatch patch{surface->patch, surface->columns, surface->coordinates,
+                       recipe.name,    recipe.place,     surface->no_net};
+      if (surface->net)
+        patch.patch = surface->net->surface, patch.columns = surface->net->columns,
+        patch.coordinates = surface->net->coordinates;
+      patches.push_back(std::move(patch));
+    } else if (recipe.normal_triangles()) {
+      std::ranges::move(normal_triangles(load_normal_surface(common, recipe, progress), recipe.name),
+                        std::back_inserter(patches));
+    }
+  }
+  if (patches.empty()) (void)recipe_patches(recipes, common.mesh);  // tells what there is instead
+  std::erase_if(recipes, [](const Recipe& recipe) { return recipe.normal_triangles() != nullptr; });
+  tell_left_out(common, recipes, Sampled::surfaces);
+  return patches;
+}
+
+std::vector<NamedPatch> load_surfaces(const Common& common, Progress& progress) {
+  if (is_recipe_job(common)) return recipe_surfaces(common, progress);
+  if (is_normal_job(common)) return normal_triangles(load_normal_surfaces(common, progress)[0], "");
+  return free_form_surfaces(common);
+}
+
+double diagonal_of(const std::vector<NamedPatch>& patches) {
+  Eigen::AlignedBox3d box;
+  for (const NamedPatch& patch : patches)
+    for (Eigen::Index i = 0; i < patch.columns.rows(); ++i) {
+      const double w = patch.columns.cols() == 4 ? patch.columns(i, 3) : 1;
+      if (w != 0) box.extend(Eigen::Vector3d(patch.columns.row(i).head(3) / w));
+    }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+nlohmann::ordered_json report_of(const StepJob& job, const PatchModel& model, const CadFile& file, size_t patches) {
+  nlohmann::ordered_json json{{"file", job.common.mesh},
+                              {"output", job.output},
+                              {"solids", file.solids},
+                              {"shells", file.shells},
+                              {"valid", file.is_valid},
+                              {"patches", patches},
+                              {"faces", model.boundary.faces.size()},
+                              {"edges", model.boundary.edges.size()},
+                              {"vertices", model.boundary.vertices.rows()},
+                              {"shared_edges", model.shared},
+                              {"seam_edges", model.seams},
+                              {"point_sides", model.points},
+                              {"open_sides", model.open},
+                              {"partial_sides", model.partial},
+                              {"reparametrised_sides", model.reparametrised},
+                              {"non_manifold_sides", model.non_manifold},
+                              {"unsuitable_sides", model.unsuitable},
+                              {"gap", model.gap},
+                              {"angle", model.angle},
+                              {"largest_angle_at", model.angle_at},
+                              {"area", model.area},
+                              {"volume", nullptr}};
+  if (file.solids > 0) json["volume"] = file.volume;
+  return json;
+}
+
+void refuse_limit_options(const StepJob& job) {
+  if (is_normal_job(job.common))
+    check_normal_job(job.common, false);
+  else
+    refuse_mesh_options(job.common);
+  if (!job.join.empty()) throw InvalidOption("--join is for caps of subdivision limits; patches have none");
+  if (job.no_packing) throw InvalidOption("--no-packing is for subdivision limits; each patch is a face as it is");
+}
+
+}  // namespace
+
+int step_patches(const StepJob& job) {
+  refuse_limit_options(job);
+  if (!job.tolerance.empty()) distance_option("--tolerance", job.tolerance, 1);
+  CadFileEntry* const entry = prepare_step(job);
+  Progress progress(job.common.quiet);
+  const std::vector<NamedPatch> patches = load_surfaces(job.common, progress);
+  progress.step("joining patches");
+  PatchModelOptions options;
+  if (const double diagonal = diagonal_of(patches); !job.tolerance.empty() && diagonal > 0)
+    options.same = distance_option("--tolerance", job.tolerance, diagonal) / diagonal;
+  const PatchModel model = patch_model(patches, options);
+  const CadFile file = cad_file_of(job, entry, model.boundary, progress);
+  write_step(job, file, report_of(job, model, file, patches.size()), progress);
+  const int status = file.is_valid ? 0 : 1;
+  if (job.common.quiet) return status;
+  fmt::print("{}: {} solids, {} open shells; {} faces of {} patches; {}\n", job.output, file.solids, file.shells,
+             model.boundary.faces.size(), patches.size(), file.is_valid ? "valid" : "not valid by OpenCASCADE's check");
+  fmt::print(
+      "  {} edges shared by two faces, {} seams, {} sides that are a point, {} sides open; gap {:.3g} and angle "
+      "{:.3g} degrees at most\n",
+      model.shared, model.seams, model.points, model.open, model.gap, model.angle * 180 / std::numbers::pi);
+  const std::int64_t apart = model.partial + model.reparametrised + model.non_manifold + model.unsuitable;
+  if (apart > 0)
+    fmt::print(
+        "  not joined: {} sides of one shape in different parameters, {} pairs with parts of that kind, {} curves of three "
+        "sides or more, {} pairs that turn a front over\n",
+        model.reparametrised, model.partial, model.non_manifold, model.unsuitable);
+  return status;
+}
+
+}  // namespace sublimit::cli

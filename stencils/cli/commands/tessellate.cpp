@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "support/common.h"
+#include "sublimit/base/detail/format_number.h"
+#include "sublimit/base/error.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/files/glb.h"
+#include "sublimit/stencils/files/place_files.h"
+#include "sublimit/stencils/files/rate_files.h"
+#include "sublimit/stencils/files/split_mesh.h"
+#include "sublimit/stencils/files/tessellation_mesh.h"
+#include "sublimit/stencils/files/vtu.h"
+#include "sublimit/stencils/jobs/detail/refined_job.h"
+#include "sublimit/tessellation/detail/bezier_cells.h"
+#include "sublimit/tessellation/detail/rated_tessellation.h"
+#include "sublimit/tessellation/detail/triangle_shapes.h"
+
+namespace sublimit::cli {
+namespace {
+
+struct TessellateOptions {
+  Common common;
+  std::string chord, angle, rates, most, output, places;  // numbers as given
+  bool normals = false, face_ids = false;
+};
+
+double radians(const std::string& text) {
+  if (text.empty()) return 0;
+  const Parsed<double> parsed = parse_number<double>(text);
+  if (!parsed || !(parsed.value > 0) || parsed.value > 180)
+    throw InvalidOption(fmt::format("--angle {}: it should be degrees, above 0 and up to 180", text));
+  return parsed.value * std::numbers::pi / 180;
+}
+
+std::int64_t most_triangles(const std::string& text) {
+  if (text.empty()) return TessellationOptions{}.max_triangles;
+  const Parsed<std::int64_t> parsed = parse_number<std::int64_t>(text);
+  if (!parsed || parsed.value < 1 || parsed.value > std::numeric_limits<Index>::max())
+    throw InvalidOption(fmt::format("--max-triangles {}: it should be a whole number from 1 to 2^31 - 1", text));
+  return parsed.value;
+}
+
+/// What only triangles have.
+void check_triangle_options(const TessellateOptions& options) {
+  const auto refuse = [&](const std::string& option) {
+    throw InvalidOption(fmt::format("{} is for triangles; a .vtu has the surface's own polynomials", option));
+  };
+  if (options.normals) refuse("--normals");
+  if (options.face_ids) refuse("--face-ids, which it always has,");
+  if (!options.angle.empty()) refuse("--angle");
+  if (!options.places.empty()) refuse("--places");
+  if (!options.rates.empty()) refuse("--rates");
+}
+
+int write_cells(const TessellateOptions& options, const LimitMap& surface, const Points& control,
+                const TessellationOptions& wanted, Progress& progress) {
+  progress.step("finding polynomials");
+  BezierCells cells;
+  naming_mesh(options.common, [&] { cells = bezier_cells(surface, control, wanted.chord, wanted.max_triangles); });
+  progress.step("writing " + options.output);
+  write_vtu(options.output, cells, surface.addresses(), progress.bytes_written());
+  progress.step("");
+  if (!options.common.quiet)
+    fmt::print("{}: {} exact Bezier cells, {} bilinear ones where the limit is no polynomial, at most {} from it\n",
+               options.output, cells.exact, std::ssize(cells.cells) - cells.exact, format_number(cells.bound));
+  return 0;
+}
+
+/// Texture coordinates, where the scheme has a limit of them.
+void add_texture(const TessellateOptions& options, const Loaded& loaded, const LimitMap& surface,
+                 const Tessellation& made, Mesh& out) {
+  if (loaded.mesh.face_varying.empty()) return;
+  try {
+    add_channel(out, made, *loaded.scheme, loaded.face_varying, loaded.mesh.face_varying[0], surface.level());
+  } catch (const Error& error) {
+    if (!may_leave_out(loaded, error)) throw;
+    if (!options.common.quiet)
+      fmt::print(stderr, "sublimit: warning: {}: {}\n", options.common.mesh,
+                 left_out(loaded.mesh.face_varying[0], 0, error.what()));
+  }
+}
+
+void print_summary(const TessellateOptions& options, const Tessellation& made) {
+  const TriangleShapes shapes = triangle_shapes(made);
+  fmt::print("{}: {} triangles, {} points", options.output, made.triangles.size(), made.places.size());
+  if (!options.chord.empty())
+    fmt::print(" in {} cells, at most {} from the limit\n", made.cells, format_number(made.bound));
+  else
+    fmt::print(" by the rates of edges\n");
+  if (made.triangles.empty()) return;
+  fmt::print("aspect ratios (longest side over shortest height): median {:.3g}, largest {:.3g}", shapes.median_aspect,
+             shapes.largest_aspect);
+  if (shapes.without_area > 0) fmt::print("; {} triangles have no area", shapes.without_area);
+  fmt::print("\n");
+}
+
+int run(const TessellateOptions& options) {
+  TessellationOptions wanted{.angle = radians(options.angle), .max_triangles = most_triangles(options.most)};
+  if (options.chord.empty() && options.rates.empty())
+    throw InvalidOption("--chord D, a distance, or --rates RATES.csv, segments of edges, is needed");
+  if (options.chord.empty() && !options.angle.empty()) throw InvalidOption("--angle goes with --chord");
+  if (!options.chord.empty())
+    distance_option("--chord", options.chord, 1);  // a wrong number is told before the mesh is read
+  check_output_path(options.output, {".obj", ".ply", ".glb", ".vtu"});
+  const std::string extension = file_extension(options.output);
+  if (extension == ".vtu") check_triangle_options(options);
+  if (extension == ".glb" && options.face_ids)
+    throw InvalidOption("--face-ids: glTF has no values of triangles; .ply, .obj and .vtu have");
+  if (!options.places.empty()) check_output_path(options.places, {".csv"});
+  Progress progress(options.common.quiet);
+  const Loaded loaded = load(options.common, progress);
+  const Points& control = loaded.mesh.positions;
+  const bool by_rates = options.chord.empty();
+  if (control.rows() > 0 && !by_rates)
+    wanted.chord =
+        distance_option("--chord", options.chord, (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm());
+  if (!by_rates && !(wanted.chord > 0))
+    throw InvalidMesh(options.common.mesh + ": no extent that --chord could be a part of");
+  std::optional<LimitMap> surface;
+  naming_mesh(options.common, [&] { surface.emplace(*loaded.scheme, loaded.mesh, loaded.rules); });
+  if (extension == ".vtu") return write_cells(options, *surface, control, wanted, progress);
+  if (!options.rates.empty()) wanted.rates = read_edge_rates(options.rates, surface->level().topology());
+  Tessellation made;
+  Mesh out;
+  naming_mesh(options.common, [&] {
+    progress.step("tessellating");
+    made = by_rates ? tessellate_by_rates(*surface, control, wanted.rates, wanted.max_triangles)
+                    : tessellate(*surface, control, wanted);
+    out = tessellation_mesh(made, *surface, options.face_ids);
+    add_texture(options, loaded, *surface, made, out);
+    // Viewers shade a .glb flat without normals.
+    if (options.normals || extension == ".glb") add_normals(out, made, *surface, control, extension != ".obj");
+  });
+  progress.step("writing " + options.output);
+  std::vector<Place> places = made.places;  // in the order of the file's vertices
+  if (extension != ".obj" && !(out.face_varying.empty() && out.face_normals.empty())) {
+    SplitMesh split = split_mesh(std::move(out));
+    out = std::move(split.mesh);
+    places = places_of(split, made);
+  }
+  if (extension == ".ply") add_places(out, places);
+  if (extension == ".glb")
+    write_glb(options.output, out, progress.bytes_written());
+  else
+    write_mesh(options.output, out, progress.bytes_written());
+  if (!options.places.empty()) write_places(options.places, places);
+  progress.step("");
+  if (!options.common.quiet) print_summary(options, made);
+  return 0;
+}
+
+}  // namespace
+
+Command add_tessellate(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("tessellate", "Make triangles within a proved distance of the limit, without cracks");
+  auto options = std::make_shared<TessellateOptions>();
+  add_mesh(*command, options->common, true);
+  command->add_option("--chord", options->chord,
+                      "Largest distance of triangles from the limit: in the mesh's unit, or as 0.1% of its diagonal");
+  command->add_option(
+      "--rates", options->rates,
+      "RATES.csv: v0,v1,rate, segments of edges of the control mesh, 1 without a row; with --chord the least they have");
+  command->add_option("--angle", options->angle,
+                      "Largest angle between normals in the cell of a triangle, in degrees (default: any)");
+  command->add_option("--max-triangles", options->most, "Stop if more are needed (default 16777216)");
+  command->add_flag("--normals", options->normals,
+                    "Limit normals too, one for each side of a crease; a .glb always has them");
+  command->add_flag("--face-ids", options->face_ids,
+                    "The control mesh's face of each triangle: face_id of a .ply, groups face_N of an .obj; a .vtu "
+                    "always has them");
+  command->add_option(
+      "--places", options->places,
+      "Write the places of the points too, face,u,v, as `bake --at` and `sample --at` read them; a .ply has "
+      "them in itself, for `bake --tessellation`");
+  command
+      ->add_option("-o,--output", options->output,
+                   "OUT.obj, OUT.ply or OUT.glb: triangles; OUT.vtu: Bezier cells for ParaView; holes are left out")
+      ->required();
+  command->footer(
+      "Examples:\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% -o surface.obj\n"
+      "  sublimit tessellate cage.obj -s loop --chord 0.005 --angle 10 --normals -o surface.ply\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% -o surface.ply\n"
+      "  sublimit bake cage.obj -s catmull-clark --tessellation surface.ply -o surface.safetensors    for every frame\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --chord 0.1% -o surface.glb     normals, texture coordinates\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --chord 0.01% -o surface.vtu    exact polynomials, curved\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --rates rates.csv -o surface.obj\n"
+      "  sublimit tessellate cage.obj -s catmull-clark --chord 1% --rates rates.csv -o surface.obj\n"
+      "\nRates are kept by quadrilaterals and triangles; edges of other polygons have the next even number of segments.\n"
+      "No distance is proved with them alone, and every scheme is taken. With --chord edges have at least so many.\n"
+      "\nThe distance is that of points with the same parameters, bounded by second derivatives; towards extraordinary\n"
+      "vertices by how far the limit is from an affine map of its parameters. Schemes without polynomials (butterfly,\n"
+      "kobbelt, sqrt3), and those whose hulls are estimates (mid-edge-habib-warren), have no such bounds: `refine` or\n"
+      "`limit -l N` serve them.\n"
+      "\nTexture coordinates are carried along: `vt` of an .obj; in .ply (s, t) and .glb points on seams are written once\n"
+      "for each side, with normals those on creases too, so a mesh is open there. Cells of a .vtu are each on their own.");
+  return [=] { return run(*options); };
+}
+
+}  // namespace sublimit::cli

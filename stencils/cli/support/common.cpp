@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/common.h"
+
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "support/curves.h"
+#include "sublimit/base/detail/followed_links.h"
+#include "sublimit/base/detail/format_number.h"
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/rule_words.h"
+#include "sublimit/base/error.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/read_mesh.h"
+#include "sublimit/source/limit_status.h"
+#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/files/sidecar.h"
+
+namespace sublimit::cli {
+namespace {
+
+/// The words as CLI11's set of choices.
+CLI::IsMember one_of(std::span<const char* const> words) {
+  return CLI::IsMember(std::vector<std::string>(words.begin(), words.end()));
+}
+
+void list(const std::vector<std::string>& messages, const char* kind, size_t most) {
+  for (size_t i = 0; i < std::min(messages.size(), most); ++i)
+    fmt::print(stderr, "sublimit: {}: {}\n", kind, messages[i]);
+  if (messages.size() > most) fmt::print(stderr, "sublimit: {}: and {} more\n", kind, messages.size() - most);
+}
+
+}  // namespace
+
+void add_run(CLI::App& command, Common& common) {
+  command.add_option("--threads", common.threads, "Threads (default: all)")->check(CLI::Range(1, 4096));
+  command.add_flag("--quiet", common.quiet, "No warnings, no progress");
+}
+
+SchemeOptions given_options(const Common& common) {
+  SchemeOptions options;
+  for (const std::string& text : common.options) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InvalidOption("--option " + text + ": write it as name=value");
+    if (!options.emplace(text.substr(0, equals), text.substr(equals + 1)).second)
+      throw InvalidOption("--option " + text + ": " + text.substr(0, equals) + " is given twice");
+  }
+  if (!common.triangles.empty()) options["triangles"] = common.triangles;
+  return options;
+}
+
+void limit_threads(const Common& common) {
+  static std::unique_ptr<tbb::global_control> threads;
+  if (common.threads > 0)
+    threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
+}
+
+void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
+  command
+      .add_option("MESH", common.mesh,
+                  "Control mesh: .obj (with tags), .ply or .off; MESH.json beside it overrides tags")
+      ->required();
+  auto* scheme = command.add_option("-s,--scheme", common.scheme, "Scheme (see `sublimit schemes`)");
+  if (scheme_required) scheme->required();
+  command.add_option("--boundary", common.boundary, "Boundary rule (default: the file's tag, else edge-and-corner)")
+      ->check(one_of(boundary_words));
+  command.add_option("--creasing", common.creasing, "How sharpness decays (default: the file's tag, else uniform)")
+      ->check(one_of(creasing_words));
+  command
+      .add_option("--triangles", common.triangles,
+                  "Catmull-Clark next to triangles (default: the file's tag, else catmark)")
+      ->check(one_of(triangles_words));
+  command
+      .add_option(
+          "--face-varying", common.face_varying,
+          "Where texture coordinates are linear, by OpenSubdiv's names (default: the file's tag, else all, which is "
+          "OpenSubdiv's default)")
+      ->check(one_of(face_varying_words));
+  command.add_option("--option", common.options, "An option of the scheme, name=value; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("--triangulate", common.triangulate,
+                   "First cut every face into triangles, a fan from its first corner; tags are kept");
+  command.add_flag("--no-creases", common.no_creases, "First drop the crease and corner tags");
+  add_run(command, common);
+  command.add_flag("--strict", common.strict, "Reject meshes that are accepted with a warning, naming each place");
+}
+
+Loaded load(const Common& common, Progress& progress) {
+  limit_threads(common);
+  MeshRequest request{common.scheme,       given_options(common), common.boundary,   common.creasing, common.triangles,
+                      common.face_varying, common.triangulate,    common.no_creases, common.strict};
+  scheme_job(request);  // a misspelt name is told before a large file is read
+  progress.step("reading " + common.mesh);
+  Mesh mesh;
+  try {
+    mesh = read_mesh(common.mesh);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::io_error) refuse_polygon(common);
+    throw;
+  }
+  if (const auto sidecar = find_sidecar(common.mesh)) apply_sidecar(mesh, *sidecar);
+  Loaded loaded = mesh_job(request, std::move(mesh), common.mesh);
+  if (common.quiet) return loaded;
+  std::vector<std::string> found = faults(loaded.mesh);
+  progress.step("");
+  list(loaded.mesh.warnings, "warning", 5);
+  for (std::string& fault : found) fault = common.mesh + ": " + fault;
+  list(found, "warning", 5);
+  return loaded;
+}
+
+std::function<void(int)> telling_levels(Progress& progress, int count) {
+  return [&progress, count](int level) { progress.step(fmt::format("level {} of {}", level, count)); };
+}
+
+std::vector<Level> refined_levels(const Loaded& loaded, int count, Progress& progress) {
+  return refine(*loaded.scheme, loaded.mesh, count, loaded.rules, telling_levels(progress, count));
+}
+
+Points refined_points(const std::vector<Level>& levels, const Points& control) {
+  Points points = control;
+  for (size_t k = 1; k < levels.size(); ++k) points = apply(levels[k].S, points);
+  return points;
+}
+
+double distance_option(const std::string& option, const std::string& text, double diagonal) {
+  const bool relative = text.ends_with('%');
+  const Parsed<double> parsed = parse_number<double>(relative ? text.substr(0, text.size() - 1) : text);
+  if (!parsed || !(parsed.value > 0) || !std::isfinite(parsed.value))
+    throw InvalidOption(fmt::format(
+        "{} {}: it should be a distance above 0, such as 0.01, or 0.1% of the mesh's diagonal", option, text));
+  if (relative && !std::isfinite(diagonal))
+    throw InvalidMesh(fmt::format(
+        "{} {}: the diagonal of the mesh is no number, as its coordinates are too large; another unit of length is "
+        "right",
+        option, text));
+  return relative ? parsed.value / 100 * diagonal : parsed.value;
+}
+
+bool has_channel(const Loaded& loaded, const std::string& output) {
+  return !loaded.mesh.face_varying.empty() && file_extension(output) == ".obj";
+}
+std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,
+                                              const std::vector<Level>& levels, const std::string& output) {
+  if (!has_channel(loaded, output)) return {};
+  std::string why_not;
+  std::vector<FaceVaryingLevel> channel = refined_channel(loaded, levels, why_not);
+  if (!why_not.empty() && !common.quiet)
+    fmt::print(stderr, "sublimit: warning: {}: texture coordinates are left out: {}\n", common.mesh, why_not);
+  return channel;
+}
+
+void naming_mesh(const Common& common, const std::function<void()>& body) {
+  const std::string place = common.mesh + ": " + (common.scheme.empty() ? "" : common.scheme + ": ");
+  try {
+    body();
+  } catch (const InvalidMesh& error) {
+    throw InvalidMesh(place + error.what());
+  } catch (const UnsupportedTopology& error) {
+    throw UnsupportedTopology(place + error.what());
+  } catch (const NoLimit& error) {
+    throw Error(error.code(), place + error.what());
+  } catch (const AnalysisError& error) {
+    throw AnalysisError(place + error.what());
+  }
+}
+
+std::string in_words_of_the_program(std::string message) {
+  constexpr std::pair<std::string_view, std::string_view> options[] = {{"triangulate the mesh", "--triangulate"},
+                                                                       {"remove the tag", "--no-creases"},
+                                                                       {"not a clean manifold", "--strict"}};
+  for (const auto& [what, option] : options)
+    if (const size_t at = message.find(what); at != std::string::npos)
+      message.insert(at + what.size(), fmt::format(" ({})", option));
+  for (const std::string_view verb : {"`schemes`", "`info`", "`analyze`"})
+    if (const size_t at = message.find(verb); at != std::string::npos) message.insert(at + 1, "sublimit ");
+  return message;
+}
+
+void check_output_path(const std::string& path, const std::vector<std::string>& extensions) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))  // whatever its name ends in
+    throw IoError("cannot write " + path + ": it is a directory; name a file in it");
+  const std::string extension = file_extension(path);
+  std::string names;
+  for (const std::string& known : extensions) names += (names.empty() ? "" : " or ") + known;
+  if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    throw InvalidOption("cannot write " + path + ": its name must end in " + names);
+  const bool exists = std::filesystem::exists(path, ignored);
+  if (exists && ::access(path.c_str(), W_OK) != 0)
+    throw IoError("cannot write " + path + ": the file that is there is not writable");
+  if (exists && !std::filesystem::is_regular_file(path, ignored)) return;  // written in place
+  const std::filesystem::path end = exists ? std::filesystem::canonical(path, ignored) : followed_links(path);
+  const std::filesystem::path directory = directory_of(end);
+  const std::string link =
+      std::filesystem::is_symlink(path, ignored) ? "it is a link to " + end.string() + ", and " : "";
+  if (!std::filesystem::is_directory(directory, ignored))
+    throw IoError("cannot write " + path + ": " + link + directory.string() + " is not a directory");
+  if (::access(directory.c_str(), W_OK) != 0)
+    throw IoError("cannot write " + path + ": " + (link.empty() ? "its directory" : link + directory.string()) +
+                  " is not writable");
+}
+
+void check_not_sidecar(const std::string& option, const std::string& path, const std::string& mesh) {
+  const auto sidecar = find_sidecar(mesh);
+  if (std::error_code ignored; sidecar && std::filesystem::equivalent(*sidecar, path, ignored))
+    throw InvalidOption(fmt::format("{} {}: this file holds tags of {}; choose another name", option, path, mesh));
+}
+
+void check_disk(const std::string& what, const std::string& path, double bytes, const std::string& advice) {
+  std::error_code failed;
+  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed)) return;
+  const std::filesystem::path directory = directory_of(followed_links(path));
+  const auto room = static_cast<double>(std::filesystem::space(directory, failed).available);
+  if (!failed && bytes > room)
+    throw ResourceError(what + " take about " + bytes_in_words(bytes) + " of disk; " + path + " has room for " +
+                        bytes_in_words(room) + "; " + advice);
+}
+
+void make_output_directory(const std::string& path) {
+  std::error_code failed;
+  std::filesystem::create_directories(followed_links(path), failed);
+  if (failed) throw IoError("cannot make the directory " + path + ": " + failed.message());
+}
+
+Progress::Progress(bool quiet) {
+  if (!quiet && ::isatty(STDERR_FILENO)) watcher_ = std::thread([this] { watch(); });
+}
+
+Progress::~Progress() {
+  if (!watcher_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    done_ = true;
+    clear();
+  }
+  woken_.notify_one();
+  watcher_.join();
+}
+
+void Progress::step(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  clear();
+  what_ = what;
+  bytes_ = 0;
+  start_ = std::chrono::steady_clock::now();
+}
+
+void Progress::note(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  what_ = what;
+}
+
+void Progress::watch() {
+  std::unique_lock lock(mutex_);
+  while (!woken_.wait_for(lock, std::chrono::milliseconds(250), [this] { return done_; })) {
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
+    if (what_.empty() || time.count() < 1) continue;
+    const std::string size = bytes_ > 0 ? ": " + bytes_in_words(double(bytes_)) : "";
+    fmt::print(stderr, "\r\033[K{}{} ... {:.0f} s", what_, size, time.count());
+    std::fflush(stderr);
+    visible_ = true;
+  }
+}
+
+void Progress::clear() {
+  if (!visible_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  visible_ = false;
+}
+
+}  // namespace sublimit::cli

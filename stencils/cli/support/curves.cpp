@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/curves.h"
+
+#include <fmt/core.h>
+
+#include "sublimit/base/detail/read_file.h"
+#include "sublimit/base/error.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/curves/detail/curve_limits.h"
+#include "sublimit/curves/schemes/curve_schemes.h"
+#include "sublimit/geometric/geometric_schemes.h"
+#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/polygon_files.h"
+#include "sublimit/stencils/files/matrix_market.h"
+
+namespace sublimit::cli {
+namespace {
+
+std::string curve_scheme_names() {
+  std::string names;
+  for (const CurveScheme<double>& scheme : all_curve_schemes()) names += (names.empty() ? "" : ", ") + scheme.name;
+  for (const auto& entry : geometric_registry<ControlPolygon>) names += ", " + std::string(entry.name);
+  return names;
+}
+
+CurveScheme<double> scheme_of(const Common& common) { return curve_scheme(common.scheme, curve_options(common)); }
+
+}  // namespace
+
+void add_closed(CLI::App& command, bool& closed) {
+  command.add_flag("--closed", closed, "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
+}
+
+void check_mesh_job(const Common& common, bool closed) {
+  scheme_or_throw(common.scheme, given_options(common));  // a misspelt name may be one of curves
+  if (closed) throw InvalidOption("--closed is for curves; " + common.scheme + " refines meshes");
+}
+
+SchemeOptions curve_options(const Common& common) {
+  for (const auto& [name, value] :
+       {std::pair("--boundary", common.boundary), std::pair("--creasing", common.creasing),
+        std::pair("--triangles", common.triangles), std::pair("--face-varying", common.face_varying)})
+    if (!value.empty()) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
+  for (const auto& [name, given] :
+       {std::pair("--triangulate", common.triangulate), std::pair("--no-creases", common.no_creases)})
+    if (given) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
+  return given_options(common);
+}
+
+ControlPolygon load_polygon(const CurveJob& job, Progress& progress, bool tangents) {
+  const Common& common = *job.common;
+  limit_threads(common);
+  const std::string extension = file_extension(common.mesh);
+  if (extension == ".ply" || extension == ".off")
+    throw UnsupportedTopology(common.mesh + ": a mesh; " + common.scheme +
+                              " refines curves, a .csv of points or the lines of an .obj");
+  progress.step("reading " + common.mesh);
+  ControlPolygon polygon = read_polygon(common.mesh, tangents);
+  for (size_t c = 0; job.closed && c < polygon.curves.size(); ++c) {
+    ControlPolygon::Curve& curve = polygon.curves[c];
+    curve.closed = true;
+    const auto point = [&](Index i) { return polygon.points.row(i); };
+    if (curve.points.size() > 3 && point(curve.points.front()) == point(curve.points.back())) {
+      curve.points.pop_back();
+      polygon.warnings.push_back(fmt::format(
+          "{}: curve {} ends in its first point; --closed joins them, and the last one is left out", common.mesh, c));
+    }
+  }
+  progress.step("");
+  if (common.strict && !polygon.warnings.empty()) throw InvalidMesh(polygon.warnings.front());
+  if (!common.quiet)
+    for (const std::string& warning : polygon.warnings) fmt::print(stderr, "sublimit: warning: {}\n", warning);
+  return polygon;
+}
+
+void check_curve_output(const CurveJob& job) {
+  check_output_path(job.output, {".csv", ".obj"});
+  if (!job.matrix.empty()) check_output_path(job.matrix, {".mtx"});
+  if (job.tangents && file_extension(job.output) != ".csv")
+    throw InvalidOption("cannot write " + job.output + ": tangents are columns of a .csv");
+}
+
+namespace {
+
+struct Refined {
+  ControlPolygon polygon;
+  std::vector<CurveLevel> levels;
+  Points unknowns;  ///< of the last level
+};
+
+Refined refined(const CurveJob& job, const CurveScheme<double>& scheme, Progress& progress) {
+  Refined result{load_polygon(job, progress, scheme.masks.unknowns() > 1), {}, {}};
+  if (file_extension(job.output) == ".obj" && result.polygon.dimension() > 3)
+    throw InvalidOption(fmt::format("cannot write {}: an .obj has points of 3 coordinates, these have {}; write a .csv",
+                                    job.output, result.polygon.dimension()));
+  naming_mesh(*job.common, [&] {
+    result.levels = refine(scheme, result.polygon, job.levels, telling_levels(progress, job.levels));
+    result.unknowns = unknowns(scheme, result.polygon);
+  });
+  for (const CurveLevel& level : result.levels) result.unknowns = apply(level.S, result.unknowns);
+  return result;
+}
+
+}  // namespace
+
+bool is_curve_job(const Common& common) {
+  for (const CurveScheme<double>& scheme : all_curve_schemes())
+    if (common.scheme == scheme.name) return true;
+  for (const auto& entry : geometric_registry<ControlPolygon>)
+    if (common.scheme == entry.name) return true;
+  return false;
+}
+
+void refuse_polygon(const Common& common) {
+  const std::string extension = file_extension(common.mesh);
+  bool polygon = extension == ".csv";
+  if (extension == ".obj") {
+    const std::string text = read_file(common.mesh);
+    const auto has = [&](const char* start) {
+      return text.starts_with(start + 1) || text.find(start) != std::string::npos;
+    };
+    polygon = has("\nl ") && !has("\nf ");
+  }
+  if (polygon)
+    throw UnsupportedTopology(common.mesh + ": a polygon, no mesh; " +
+                              (common.scheme.empty() ? "" : common.scheme + " refines meshes, ") +
+                              "curve schemes are " + curve_scheme_names());
+}
+
+int refine_curves(const CurveJob& job) {
+  if (const auto scheme = find_geometric_scheme(job.common->scheme, curve_options(*job.common)))
+    return refine_geometric(job, *scheme);
+  check_curve_output(job);
+  Progress progress(job.common->quiet);
+  const CurveScheme<double> scheme = scheme_of(*job.common);
+  const Refined curves = refined(job, scheme, progress);
+  if (!job.matrix.empty()) {
+    progress.step("multiplying");
+    write_matrix_market(job.matrix, refinement_matrix(curves.levels));
+  }
+  progress.step("writing " + job.output);
+  ControlPolygon result = refined_polygon(curves.levels.back(), curves.unknowns);
+  result.columns = curves.polygon.columns;
+  write_polygon(job.output, result);
+  return 0;
+}
+
+int limit_curves(const CurveJob& job) {
+  if (const auto scheme = find_geometric_scheme(job.common->scheme, curve_options(*job.common)))
+    return limit_geometric(job, *scheme);
+  check_curve_output(job);
+  Progress progress(job.common->quiet);
+  const CurveScheme<double> scheme = scheme_of(*job.common);
+  const Refined curves = refined(job, scheme, progress);
+  CurveLimits limits;
+  naming_mesh(*job.common, [&] {
+    progress.step("limits");
+    limits = CurveAnalysis(scheme).limits(curves.levels.back());
+  });
+  ControlPolygon result = curve_outlines(curves.levels.back());
+  result.points = apply(limits.position, curves.unknowns);
+  Index without = 0;
+  if (job.tangents) {
+    result.tangents = apply(limits.first, curves.unknowns);
+    for (Index i = 0; i < result.num_points(); ++i) {
+      const double length = result.tangents.row(i).stableNorm();
+      const bool defined = limits.order[i] > 0 && length > 0;
+      without += !defined;
+      if (defined)
+        result.tangents.row(i) /= length;
+      else
+        result.tangents.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  } else {
+    result.columns = curves.polygon.columns;
+  }
+  progress.step("writing " + job.output);
+  write_polygon(job.output, result);
+  progress.step("");
+  if (!job.common->quiet)
+    fmt::print("{}: {} limit points of level {}{}\n", job.output, result.num_points(), job.levels,
+               job.tangents ? fmt::format(", {} without a tangent", without) : "");
+  return 0;
+}
+
+}  // namespace sublimit::cli

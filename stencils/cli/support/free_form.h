@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// Files of free-form curves and surfaces on the command line: they take no scheme.
+#include <nlohmann/json_fwd.hpp>
+
+#include "support/common.h"
+#include "sublimit/io/free_form.h"
+#include "sublimit/patches/curve_set.h"
+#include "sublimit/patches/detail/free_form_patches.h"
+#include "sublimit/patches/patch_set.h"
+#include "sublimit/stencils/fit_jobs/fit_job.h"
+
+namespace sublimit::cli {
+
+/// Returns true if the file is to be read as free-form surfaces: no scheme is given.
+/// @throws InvalidOption  a file without free-form surfaces, which needs a scheme
+bool is_free_form_job(const Common& common);
+
+/// @throws InvalidOption  options that are of meshes
+void refuse_mesh_options(const Common& common);
+
+/// The shapes of the file; its warnings are printed.
+FreeForm load_free_form(const Common& common);
+/// Loads the surfaces of a file, and reports those that are left out.
+FreeFormPatches load_free_form_patches(const Common& common, const FreeForm& shapes);
+
+/// Surfaces of a free-form .obj or of recipes, as one source. Those left out are reported.
+struct LoadedPatches {
+  PatchSet patches;
+  Points columns;  ///< x 3, or x 4, homogeneous
+};
+LoadedPatches load_patches(const Common& common);
+/// Curves of a free-form .obj or of recipes, as one source.
+struct LoadedCurves {
+  CurveSet curves;
+  Points columns;
+  Coordinates coordinates = Coordinates::plain;
+};
+LoadedCurves load_patch_curves(const Common& common);
+/// Returns true if the file has curves but no surfaces.
+bool has_curves_alone(const Common& common);
+
+/// Returns true if an .obj has free-form curves or surfaces; false for a pipe.
+/// @throws IoError  unreadable
+bool has_free_form(const std::string& path);
+
+/// Prints information on free-form shapes, for `info`.
+void print_free_form(const Common& common, const FreeForm& shapes, bool json);
+
+/// `refine` and `limit` of the free-form surfaces of a file.
+void refine_free_form(const Common& common, int levels, const std::string& output, const std::string& matrix);
+void limit_free_form(const Common& common, int levels, const std::string& output, bool normals);
+
+/// A fit of the free-form surfaces of a file to targets at places.
+struct FreeFormFit {
+  FreeForm shapes;  ///< with their new points
+  FitReport report;
+};
+/// @throws FormatError          targets that are at no place of the surfaces
+/// @throws InvalidOption        recipes, whose data are not control points; pins that are no list
+/// @throws UnsupportedTopology  surfaces by coefficients, or without weights, beside rational ones
+FreeFormFit fit_free_form(const Common& common, const FitTargets& targets, FitSettings settings, const std::string& pin,
+                          Progress& progress);
+
+/// The free-form curves and surfaces of a file, or those of recipes, as a report of kind "free-form"; what was found is
+/// printed by `print_free_form_report`.
+/// @param tolerances  as `--tolerance` has them
+/// @throws InvalidOption  another tolerance, options that are of meshes
+nlohmann::ordered_json analyze_free_form(const Common& common, const std::vector<std::string>& tolerances,
+                                         Progress& progress);
+void print_free_form_report(const nlohmann::ordered_json& report);
+
+}  // namespace sublimit::cli

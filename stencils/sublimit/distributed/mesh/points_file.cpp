@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/distributed/mesh/points_file.h"
+
+#include <fmt/core.h>
+
+#include "sublimit/base/error.h"
+#include "sublimit/io/detail/file_extension.h"
+
+namespace sublimit {
+
+void check_points_output(const std::filesystem::path& output) {
+  const std::string extension = file_extension(output);
+  if (extension != ".npy" && extension != ".ply")
+    throw InvalidOption(output.string() + ": unknown kind of output '" + extension + "'; .npy and .ply can be written");
+}
+
+std::string ply_header(std::int64_t num_points, std::optional<std::int64_t> num_faces) {
+  std::string header = fmt::format(
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double "
+      "z\n",
+      num_points);
+  if (num_faces) header += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", *num_faces);
+  return header + "end_header\n";
+}
+
+std::vector<PointRun> runs_of(std::span<const std::array<std::int64_t, 2>> items, std::int64_t isolated) {
+  std::vector<PointRun> runs;
+  if (isolated > 0) runs.push_back({0, isolated});
+  for (const auto& [first, count] : items)
+    if (!runs.empty() && runs.back().first + runs.back().count == first)
+      runs.back().count += count;
+    else if (count > 0)
+      runs.push_back({first, count});
+  return runs;
+}
+
+void write_runs(SharedFile& file, std::int64_t begin, std::int64_t item_size, std::span<const PointRun> runs,
+                std::span<const std::byte> items) {
+  for (const PointRun& run : runs) {
+    const auto size = static_cast<size_t>(run.count * item_size);
+    file.write(begin + run.first * item_size, items.first(size));
+    items = items.subspan(size);
+  }
+}
+
+}  // namespace sublimit
