@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Union-find with signs: classes of numbers that belong together, each with a bit that says whether it is reversed
-// relative to the representative of its class.
+// Union-find with signs: classes of numbers that belong together, each with a bit that says whether it is
+// reversed relative to the representative of its class.
 #include <algorithm>
 #include <cstddef>
 #include <utility>

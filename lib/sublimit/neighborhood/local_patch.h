@@ -216,7 +216,7 @@ bool patches_within(const Scheme<T>& scheme, const LocalType& type, const LocalP
   for (size_t s = 0; s < parent.vertices.size(); ++s) slot_of[parent.vertices[s]] = static_cast<Index>(s);
 
   for (const int rings : options.rings) {
-    // The smallest closed set that holds the rings asked for.
+    // The smallest closed set that contains the requested rings.
     SparsePatch<T> patch;
     patch.type = type;
     std::vector<Index> asked(parent.ring_end[rings]);

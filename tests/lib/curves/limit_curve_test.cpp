@@ -96,10 +96,10 @@ struct HalfSegments {
   double rest;
   double sum() const { return static_cast<double>(point) + rest; }
 };
-HalfSegments half_segments(const CurveLayout& layout, const CurveOutline& curve, const CurvePlace& sample) {
-  const std::int64_t from = layout.position(curve, sample.segment);
-  const double length = curve.closed ? 2 : static_cast<double>(layout.position(curve, sample.segment + 1) - from);
-  return {from, length * sample.t};
+HalfSegments half_segments(const CurveLayout& layout, const CurveOutline& curve, const CurvePlace& place) {
+  const std::int64_t from = layout.position(curve, place.segment);
+  const double length = curve.closed ? 2 : static_cast<double>(layout.position(curve, place.segment + 1) - from);
+  return {from, length * place.t};
 }
 
 /// Cardinal B-splines of a degree at `fraction` + 0, 1, ..., degree, where B is positive on (0, degree + 1).
@@ -483,10 +483,9 @@ TEST(LimitCurve, OfHermiteSchemesPassesThroughRefinedPoints) {
 }
 
 TEST(LimitCurve, TellsWhatThereIs) {
-  const auto status = [](const std::string& name, const SchemeOptions& options, CurvePlace sample,
-                         bool closed = false) {
+  const auto status = [](const std::string& name, const SchemeOptions& options, CurvePlace place, bool closed = false) {
     const CurveStencil stencil =
-        LimitCurve(*find_curve_scheme(name, options), random_polygon(9, closed)).stencil(sample, 2);
+        LimitCurve(*find_curve_scheme(name, options), random_polygon(9, closed)).stencil(place, 2);
     return std::pair(stencil.status, order_of(stencil));
   };
   using enum LimitStatus;
@@ -687,8 +686,8 @@ TEST(GeometricLimitCurve, PassesThroughRefinedPoints) {
 
 TEST(GeometricLimitCurve, RefusesPlacesThatDoNotExist) {
   const GeometricCurveScheme scheme = *find_geometric_scheme("hermite-incentre");
-  const auto at = [&](CurvePlace sample) {
-    const std::vector<CurvePlace> samples{{0, 0}, sample};
+  const auto at = [&](CurvePlace place) {
+    const std::vector<CurvePlace> samples{{0, 0}, place};
     evaluate(scheme, circle(false), samples, 1);
   };
   expect_error<InvalidParameter>([&] { at({3, 0}); }, {"sample 1", "segment 3", "0 to 2"});

@@ -33,7 +33,7 @@ Vector3d normal_of(const PlanePolygon& polygon) {
 TEST(PlanePolygon, IsTurnedTheShortestWay) {
   // A square in the xy plane, with its normal tilted towards x: lengths along y stay.
   PlanePolygon polygon = with_masks(Eigen::MatrixX3d{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}});
-  EXPECT_EQ(turn_across(polygon, {2, 0, 2}, 3), Turn::plain);
+  EXPECT_EQ(turn_across(polygon, {2, 0, 2}, 3), OrientationResult::plain);
   const double r = 3 / std::numbers::sqrt2;
   const Eigen::MatrixX3d expected{{r, 0, -r}, {0, 3, 0}, {-r, 0, r}, {0, -3, 0}};
   EXPECT_LE((polygon.corners - expected).cwiseAbs().maxCoeff(), rounding(8, 3));
@@ -41,21 +41,21 @@ TEST(PlanePolygon, IsTurnedTheShortestWay) {
 
 TEST(PlanePolygon, IsPlaneAfterwardsWhateverItsCornersWere) {
   PlanePolygon polygon = with_masks(Eigen::MatrixX3d{{1, 0, 1}, {0, 1, -1}, {-1, 0, 1}, {0, -1, -1}});
-  EXPECT_EQ(turn_across(polygon, Vector3d::UnitZ()), Turn::plain);
+  EXPECT_EQ(turn_across(polygon, Vector3d::UnitZ()), OrientationResult::plain);
   const Eigen::MatrixX3d expected{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   EXPECT_LE((polygon.corners - expected).cwiseAbs().maxCoeff(), rounding(8));
 }
 
 TEST(PlanePolygon, IsTurnedOverWhereItsNormalIsOpposite) {
   PlanePolygon polygon = with_masks(Eigen::MatrixX3d{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}});
-  EXPECT_EQ(turn_across(polygon, -Vector3d::UnitZ()), Turn::over);
+  EXPECT_EQ(turn_across(polygon, -Vector3d::UnitZ()), OrientationResult::over);
   EXPECT_LE((normal_of(polygon) + Vector3d::UnitZ()).norm(), rounding(8));
 }
 
 TEST(PlanePolygon, IsRegularAndTurnedAsItsCornersLieWhereItHasNoPlane) {
   for (const double sign : {1.0, -1.0}) {  // corners to the right and to the left on a line
     PlanePolygon polygon = with_masks(Eigen::MatrixX3d{{5, 1, 0}, {5, 0, 0}, {5, -1, 0}, {5, 0, 0}});
-    EXPECT_EQ(turn_across(polygon, sign * Vector3d::UnitZ()), Turn::rebuilt);
+    EXPECT_EQ(turn_across(polygon, sign * Vector3d::UnitZ()), OrientationResult::rebuilt);
     const double r = 0.5;  // the mean distance
     const Eigen::MatrixX3d expected{{5, r, 0}, {5 - sign * r, 0, 0}, {5, -r, 0}, {5 + sign * r, 0, 0}};
     EXPECT_LE((polygon.corners - expected).cwiseAbs().maxCoeff(), rounding(8, 5));
@@ -65,7 +65,7 @@ TEST(PlanePolygon, IsRegularAndTurnedAsItsCornersLieWhereItHasNoPlane) {
 
 TEST(PlanePolygon, OfThreeCornersOnALineIsTurnedTowardsThem) {
   PlanePolygon polygon = with_masks(Eigen::MatrixX3d{{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}});
-  EXPECT_EQ(turn_across(polygon, Vector3d::UnitZ()), Turn::rebuilt);
+  EXPECT_EQ(turn_across(polygon, Vector3d::UnitZ()), OrientationResult::rebuilt);
   const double r = 2.0 / 3, half = r / 2, across = r * std::numbers::sqrt3 / 2;
   const Eigen::MatrixX3d expected{{across, -half, 0}, {0, r, 0}, {-across, -half, 0}};
   EXPECT_LE((polygon.corners - expected).cwiseAbs().maxCoeff(), rounding(8));
@@ -75,13 +75,13 @@ TEST(PlanePolygon, IsRegularWhereATangentVanishes) {  // a border edge from a ve
   PlanePolygon polygon = with_masks(Eigen::MatrixX3d{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}});
   polygon.weights.col(0) << 0.5, 0, 0, 0.5;
   polygon.weights.col(1) << 0.5, 0, 0, -0.5;
-  EXPECT_EQ(turn_across(polygon, Vector3d::UnitZ()), Turn::rebuilt);
+  EXPECT_EQ(turn_across(polygon, Vector3d::UnitZ()), OrientationResult::rebuilt);
   EXPECT_NEAR(normal_of(polygon).dot(Vector3d::UnitZ()), 1, rounding(8));
 }
 
 TEST(PlanePolygon, CannotBeTurnedIfItIsAPoint) {
   PlanePolygon polygon = with_masks(Eigen::MatrixX3d{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}});
-  EXPECT_EQ(turn_across(polygon, Vector3d::UnitZ()), Turn::impossible);
+  EXPECT_EQ(turn_across(polygon, Vector3d::UnitZ()), OrientationResult::impossible);
 }
 
 TEST(PlanePolygon, MovesItsLimit) {

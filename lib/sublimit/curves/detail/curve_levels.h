@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Levels of curves in any number type: the matrix of a step, filled from the masks of a curve scheme, and the levels
-// that curve_refine.h makes of it in double.
+// Levels of curves in any number type: the matrix of a step, filled from the masks of a curve scheme, and the
+// levels that curve_refine.h makes of it in double.
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -47,8 +47,8 @@ class CurveRows {
   Index row_ = 0;
 };
 
-/// Returns the matrix of one step. Row i has the weights of child point i over the points of the curves of level
-/// `number`; for Hermite schemes rows 2i and 2i + 1 are those of the point and of its derivative.
+/// Returns the matrix of one step. Row i has the weights of child point i over the points of the curves of
+/// level `number`; for Hermite schemes rows 2i and 2i + 1 are those of the point and of its derivative.
 /// @throws ResourceError  more points than 32-bit indices count
 template <class T>
 CurveMatrix<T> curve_matrix(const CurveScheme<T>& scheme, const std::vector<CurveOutline>& parents, int number) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The registry of curve schemes: one line a scheme.
+// The registry of curve schemes: one line per scheme.
 #include <optional>
 #include <string>
 #include <utility>
@@ -53,16 +53,17 @@ template <class T = double>
   return std::nullopt;
 }
 
-/// A curve scheme by name: `curve_scheme("chaikin")`, `curve_scheme("four-point", {{"tension", "3/4"}})`.
-/// @throws InvalidOption  no linear scheme of curves has this name: says which are nearest, or what makes it; an
-///                        unknown option, or a value outside its range
+/// Returns a curve scheme by name: `curve_scheme("chaikin")`, `curve_scheme("four-point", {{"tension",
+/// "3/4"}})`.
+/// @throws InvalidOption  no linear curve scheme has this name (names the nearest ones, or the function that
+///                        makes it); an unknown option, or a value outside its range
 template <class T = double>
 [[nodiscard]] CurveScheme<T> curve_scheme(const std::string& name, const SchemeOptions& options = {}) {
   if (std::optional<CurveScheme<T>> found = find_curve_scheme<T>(name, options)) return *std::move(found);
   throw_unknown_scheme(name, SchemeKind::curve);
 }
 
-// Made once, in the library, as the registry of surfaces is.
+// Instantiated once, in the library, like the registry of surfaces.
 extern template std::vector<CurveScheme<double>> all_curve_schemes<double>();
 extern template std::optional<CurveScheme<double>> find_curve_scheme<double>(const std::string&, const SchemeOptions&);
 

@@ -29,8 +29,8 @@ void check_curve(FreeFormCurve& curve, std::string_view keyword, const TextScann
                  FreeFormWarnings& warnings);
 void check_surface(FreeFormSurface& surface, const TextScanner& scanner, FreeFormWarnings& warnings);
 
-/// Checks weights: those of a rational element must not all be 0. Warns about weights that are not positive, or
-/// not used.
+/// Checks weights. Those of a rational element must not all be 0, and weights that are not positive give a
+/// warning. Weights other than 1 of an element that is not rational are ignored, with a warning.
 /// @param weights  weights of all points that `element.points` refers to
 /// @throws InvalidMesh
 void check_weights(const FreeFormElement& element, const std::vector<double>& weights, std::string_view keyword,

@@ -3,8 +3,8 @@
 // Polygon File Format (Stanford): text or binary of either byte order, numbers of any type.
 //
 // Read: `x`, `y`, `z` of the element `vertex` and the list `vertex_index` or `vertex_indices` of the element `face`;
-// all else is skipped, but for properties of vertices that are asked for. Written: binary little-endian, doubles, one
-// normal per vertex. Tags have no place in it.
+// all else is skipped, except for requested properties of vertices. Written: binary little-endian, doubles, one
+// normal per vertex. The format has no tags.
 #include <filesystem>
 #include <span>
 #include <string>
@@ -24,7 +24,7 @@ namespace sublimit {
 Mesh read_ply(const std::filesystem::path& path);
 /// Reads a mesh from the bytes of a PLY file.
 /// @param name  name of the file, with which messages start
-/// @throws as `read_ply`, but for IoError
+/// @throws the errors of `read_ply` except IoError
 Mesh parse_ply(std::string_view bytes, std::string_view name);
 
 /// Returns the mesh with the named properties as its `vertex_values`; properties that the file lacks are left

@@ -17,7 +17,7 @@ namespace sublimit {
 /// Text data, with a row per line.
 class PlyTextValues {
  public:
-  /// @param bytes  which must stay
+  /// @param bytes  must outlive this
   template <TemporaryString Text>
   PlyTextValues(Text&& bytes, const PlyHeader&, std::string_view) = delete;
   PlyTextValues(std::string_view bytes, const PlyHeader& header, std::string_view name)
@@ -62,7 +62,7 @@ class PlyTextValues {
 /// Binary data of either byte order; rows have no separators.
 class PlyBinaryValues {
  public:
-  /// @param bytes  which must stay
+  /// @param bytes  must outlive this
   template <TemporaryString Text>
   PlyBinaryValues(Text&& bytes, const PlyHeader&, std::string_view) = delete;
   PlyBinaryValues(std::string_view bytes, const PlyHeader& header, std::string_view name)

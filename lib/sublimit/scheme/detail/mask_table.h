@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Masks as numbers, one evaluation per type of site. A mask depends on face sizes alone (sharpness is blended outside),
-// so a mesh of a million vertices asks a mask a handful of times; `visit_site` goes through a site's vertices in the
-// order of its slots.
+// Weights of masks, evaluated once per type of site. A mask depends only on face sizes (sharpness is blended
+// elsewhere), so masks are called a handful of times for a mesh of a million vertices. `visit_site` visits the
+// vertices of a site in the order of its slots.
 #include <algorithm>
 #include <map>
 #include <span>
@@ -17,28 +17,29 @@
 
 namespace sublimit {
 
+/// Weights of one step's masks. One thread at a time.
 template <class T>
 class MaskTable {
  public:
-  /// Weights by slot. Where some are zero, `kept` lists the slots of the others.
+  /// Weights by slot. If some are zero, `kept` lists the slots of the others.
   struct Weights : std::vector<T> {
     using std::vector<T>::vector;
     std::vector<Index> kept;
     bool has_zeros = false;
-    FanShape tail, head;      ///< of a wide edge: the rings as far as they are used
-    std::vector<T> on_edges;  ///< weights of points on a face's edges and on the edges beyond, if any is used
+    FanShape tail, head;      ///< for a wide edge: the parts of the rings that have weight
+    std::vector<T> on_edges;  ///< weights of points on a face's edges and on the edges beyond, if any is not zero
     const T& nonzero(Index i) const { return (*this)[has_zeros ? kept[i] : i]; }
     Index count() const { return static_cast<Index>(has_zeros ? kept.size() : this->size()); }
   };
 
-  /// @param scheme  name of the scheme that the masks are of; must stay, as the masks must
+  /// @param scheme  name of the scheme, for messages; must outlive this, like the masks
   MaskTable(const std::string& scheme, const Masks<T>& masks, int level)
       : scheme_(&scheme), masks_(&masks), level_(level) {}
   MaskTable(const std::string&&, const Masks<T>&, int) = delete;
   MaskTable(const std::string&, const Masks<T>&&, int) = delete;
   MaskTable(const std::string&&, const Masks<T>&&, int) = delete;
   MaskTable(MaskTable&&) = default;
-  MaskTable(const MaskTable&) = delete;  // it points to weights of its own
+  MaskTable(const MaskTable&) = delete;  // has pointers to its own weights
   MaskTable& operator=(const MaskTable&) = delete;
 
   const Weights& face(Index size) {
@@ -87,7 +88,7 @@ class MaskTable {
     return weights;
   }
 
-  /// Returns the weights of a vertex's child; its own weight alone if the vertex stays.
+  /// Returns the weights of a vertex's child; a single weight 1 if the vertex is kept.
   const Weights& vertex(const std::vector<Index>& face_sizes) {
     Weights& weights = vertices_[face_sizes];
     if (weights.empty()) {
@@ -140,7 +141,7 @@ class MaskTable {
     });
   }
 
-  /// Where all faces of a mesh have one size, types are found without a search.
+  /// Index of types for meshes whose faces all have one size, which saves a search.
   const Weights& vertex(Index valence, Index face_size) {
     Weights& weights = at(rings_, valence);
     if (weights.empty()) weights = vertex(std::vector<Index>(valence, face_size));
@@ -190,8 +191,8 @@ class MaskTable {
     if (static_cast<size_t>(i) >= list.size()) list.resize(i + 1);
     return list[i];
   }
-  /// Weights by slot of what a mask returned.
-  /// @throws InvalidParameter  as `check_weights`
+  /// Returns the weights of a stencil by slot.
+  /// @throws InvalidParameter  see `check_weights`
   Weights dense(const char* mask, const Stencil<T>& stencil, Index slots) const {
     check_weights(*scheme_, mask, stencil, slots);
     Weights weights(slots, T(0));
@@ -266,12 +267,12 @@ class MaskTable {
   std::vector<double> key_;
 };
 
-/// Connectivity of faces of one size, known when this is compiled: what `visit_site` asks for, without a division or a
-/// branch.
+/// Connectivity of faces of a size known at compile time, as `visit_site` needs it, without divisions or
+/// branches.
 template <Index N>
 class UniformFaces {
  public:
-  /// @param t  which must stay
+  /// @param t  must outlive this
   explicit UniformFaces(const Topology&& t) = delete;
   explicit UniformFaces(const Topology& t) : t_(t), tails_(t.num_faces() > 0 ? t.vertices(Face{0}).data() : nullptr) {}
   Index size(Face) const { return N; }
@@ -337,8 +338,8 @@ template <class Connectivity, class Visit>
   visit_corners(t, corner, 0, t.size(t.face(corner)), visit);
 }
 
-/// Where rings are cut: at the boundary and along sharp edges. `is_cut(h)` for a half-edge.
-/// Shape of the fan at the tail of a half-edge.
+/// Returns the shape of the fan at the tail of a half-edge.
+/// @param is_cut  is_cut(half-edge) is true where rings are cut: at the boundary and along sharp edges
 template <class IsCut>
 FanShape fan_shape(const Topology& t, HalfEdge h, const IsCut& is_cut) {
   FanShape shape{1, -1};
@@ -355,9 +356,10 @@ FanShape fan_shape(const Topology& t, HalfEdge h, const IsCut& is_cut) {
   return shape;
 }
 
-/// Calls visit(vertex) for what a ring adds beyond the site's own faces: `first` is the half-edge, with the ring's
-/// vertex as its tail, of the first face counter-clockwise, for `count` faces; `ends_known`: the last one's far end has
-/// a slot already.
+/// Calls visit(vertex) for the vertices that a ring adds to those of the site's own faces, counter-clockwise.
+/// @param first       half-edge of the first face, whose tail is the vertex of the ring
+/// @param count       number of faces
+/// @param ends_known  true: the far end of the last face has a slot already
 template <class Visit>
 void visit_faces_ccw(const Topology& t, HalfEdge first, Index count, bool ends_known, const Visit& visit) {
   HalfEdge h = first;
@@ -367,8 +369,8 @@ void visit_faces_ccw(const Topology& t, HalfEdge first, Index count, bool ends_k
     if (k + 1 < count) h = t.ccw(h);
   }
 }
-/// Clockwise: `first` is the half-edge of the face nearest to the site; each face shows its corners from its first edge
-/// on.
+/// Likewise clockwise: `first` is the half-edge of the face nearest to the site. Each face has its corners in
+/// the order from its first edge.
 template <class Visit>
 void visit_faces_cw(const Topology& t, HalfEdge first, Index count, const Visit& visit) {
   HalfEdge h = first;
@@ -424,7 +426,7 @@ void visit_wide_face(const Topology& t, Face f, const std::vector<FanShape>& sha
   }
 }
 
-/// Sizes of the faces around an interior vertex.
+/// Returns the sizes of the faces around an interior vertex.
 inline void face_sizes_around(const Topology& t, Vertex v, std::vector<Index>& sizes) {
   sizes.clear();
   HalfEdge h = t.outgoing(v);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Assembly: lengths of the rows, then their entries, both in parallel blocks of rows and in order; no triplets.
-// Smooth rows take their weights from the mask table; the few sharp ones are blended from the rules of parent and
-// child.
+// Assembly of subdivision matrices: first the lengths of rows, then their entries, both in order in parallel
+// blocks of rows; without triplets. Smooth rows take their weights from the mask table; the few sharp ones are
+// blended from the rules of parent and child.
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ class RowMaker {
     return static_cast<Index>(row_.size());
   }
   Index length(HalfEdge corner) { return smooth_weights(corner).count(); }
-  /// A point on a half-edge without twin, `part` from its tail on.
+  /// A point on a half-edge without twin, at the fraction `part` from its tail.
   struct Border {
     HalfEdge half;
     Index part, parts;
@@ -92,8 +92,8 @@ class RowMaker {
         element, [&](const Weights& weights) { return write_smooth(element, weights, columns, values); },
         [&](const std::vector<Term>& row) { return write(row, columns, values); });
   }
-  /// Calls term(column, weight) for what the row is the sum of: smooth rows in the order of the site, where points that
-  /// coincide come one by one. Nothing is sorted, and nothing stored.
+  /// Calls term(column, weight) for the terms of a row: for smooth rows in the order of the site, with one term
+  /// per slot even if points coincide. Sorts and stores nothing.
   template <class Element, class Visit>
   [[gnu::always_inline]] void visit(Element element, const Visit& term) {
     by_rule(
@@ -112,7 +112,7 @@ class RowMaker {
   }
 
  private:
-  /// Calls smooth(weights) where masks alone make the row, else sharp(row).
+  /// Calls smooth(weights) if the row comes from masks alone, else sharp(row).
   template <class Smooth, class Sharp>
   [[gnu::always_inline]] auto by_rule(Face f, const Smooth& smooth, const Sharp& sharp) {
     if (!wide_face_) return smooth(smooth_weights(f));
@@ -148,7 +148,7 @@ class RowMaker {
     return is_sharp(sharpness_.edge[index(e)]);
   }
 
-  /// Rows where something is sharp. Valid until the next call.
+  /// Returns a row at sharp elements. Valid until the next call.
   const std::vector<Term>& row(Edge e) {
     row_.clear();
     add_crease_edge(e, T(1));
@@ -191,7 +191,7 @@ class RowMaker {
     add_curve(factor * w, e, t_.tail(e), t_.head(e));
     if (w != T(1)) add(e, factor * (T(1) - w), smooth_weights(e));
   }
-  /// The mask of a sharp edge, seen from `tail`.
+  /// Returns the mask of a sharp edge, in the direction from `tail`.
   void add_curve(const T& factor, Edge e, Vertex tail, Vertex head) {
     Index before = -1, after = -1;
     if (crease_is_wide_) {
@@ -211,7 +211,7 @@ class RowMaker {
   EdgeKnots<T> curve_knots(Edge e, Vertex from, Vertex to) const {
     return MaskTable<T>::cast(knots_->along(e, from, next_on_curve(e, from), next_on_curve(e, to)));
   }
-  /// The next edge of a crease beyond one of its ends, none if the curve ends there.
+  /// Returns the next edge of a crease beyond one of its ends; nothing if the curve ends there.
   std::optional<Edge> next_on_curve(Edge e, Vertex end) const {
     if (is_sharp(sharpness_.vertex[index(end)])) return std::nullopt;  // a corner, perhaps of very many edges
     Edge other = e;
@@ -223,7 +223,7 @@ class RowMaker {
     }
     return count == 2 ? std::optional(other) : std::nullopt;
   }
-  /// The next vertex there, or -1.
+  /// Returns the next vertex there, or -1.
   Index along_curve(Edge e, Vertex end) const {
     const std::optional<Edge> next = next_on_curve(e, end);
     return next ? other_end(*next, end) : -1;
@@ -244,8 +244,8 @@ class RowMaker {
     return merge();
   }
 
-  /// Under Chaikin creasing an edge decays with those around it, of which a face-varying channel has not all: beyond
-  /// its seams the mesh goes on. What the edges became is known.
+  /// With Chaikin creasing the decay of an edge depends on edges around it. A face-varying channel lacks those
+  /// beyond its seams, so the sharpness of the child edges is used instead.
   void use_child_sharpness(Vertex v, VertexSharpness& around) const {
     if (!is_primal(refinement_.split)) return;
     const std::vector<Edge> edges = t_.edges(v);
@@ -319,7 +319,7 @@ class RowMaker {
     for (Index i = 0; i < t_.size(f); ++i) shapes_.push_back(shape(t_.corner(f, i)));
     return masks_.wide_face(shapes_);
   }
-  /// The vertices of a site in the order of its slots.
+  /// Returns the vertices of a site in the order of its slots.
   template <class Element, class Visit>
   [[gnu::always_inline]] void visit_narrow(Element element, const Visit& visit) const {
     if constexpr (std::is_same_v<T, double>) {  // of others, sums take longer than walks
@@ -328,7 +328,8 @@ class RowMaker {
     }
     visit_site(t_, element, visit);
   }
-  /// The vertices of an element's site, in the order of its slots. After `wide_weights` of a face.
+  /// Returns the vertices of an element's site, in the order of its slots. For a face, call `wide_weights`
+  /// before.
   template <class Visit>
   [[gnu::always_inline]] void visit_element(Edge e, const Weights& weights, const Visit& visit) const {
     if (!wide_edge_) return visit_narrow(e, visit);
@@ -377,7 +378,7 @@ class RowMaker {
     return write(merge(), columns, values);
   }
 
-  /// The vertices of an element whose weights are not zero, in `gathered_`; there is room for 16 behind them.
+  /// Stores the vertices of an element whose weights are not zero in `gathered_`, with room for 16 more.
   template <class Element>
   void gather(Element element, const Weights& weights) {
     if (gathered_.size() < weights.size() + 16) gathered_.resize(weights.size() + 16);
@@ -387,8 +388,9 @@ class RowMaker {
     for (Index i = 0; i < weights.count(); ++i) gathered_[i] = gathered_[weights.kept[i]];
   }
 
-  /// A row of up to N gathered terms, or nothing if points coincide. The place of a column is the number of smaller
-  /// ones: comparisons without branches, which sorting would mispredict.
+  /// Writes a row of up to N gathered terms and returns its length; returns 0 if points coincide. The position
+  /// of a column is the number of smaller ones: comparisons without branches, which avoids the mispredictions
+  /// of sorting.
   template <Index N>
   Index write_ranked(const Weights& weights, Index* columns, T* values) {
     const Index count = weights.count();
@@ -429,8 +431,8 @@ class RowMaker {
     }
   }
 
-  /// Each column of the row once, where it came first, its terms added up in their order: by a table of columns, which
-  /// takes much less than sorting what is equal.
+  /// Merges equal columns of the row at their first position, summing terms in order, by a table of columns.
+  /// Much faster than sorting many equal columns.
   void sum_columns() {
     size_t size = 64;
     while (size < 2 * row_.size()) size *= 2;
@@ -452,7 +454,7 @@ class RowMaker {
 
   Index other_end(Edge e, Vertex v) const { return index(t_.tail(e) == v ? t_.head(e) : t_.tail(e)); }
 
-  /// An edge is a full crease while its sharpness is 1 or more, and under Chaikin creasing also where both its halves
+  /// True if an edge is a full crease: its sharpness is 1 or more or, with Chaikin creasing, both its halves
   /// stay sharp.
   bool stays_sharp(Edge e) const {
     if (sharpness_.edge[index(e)] >= 1) return true;
@@ -524,7 +526,7 @@ class RowMaker {
   std::vector<Term> row_;
 };
 
-/// Calls body with the element of the parent that a child comes from.
+/// Calls body with the parent element that a child comes from.
 template <class T, class Body>
 auto with_parent(const Refinement& refinement, Vertex child, const Body& body) {
   const Index parent = refinement.parent(child);
@@ -548,7 +550,7 @@ Index write_row(RowMaker<T>& maker, const Refinement& refinement, Vertex child, 
   return with_parent<T>(refinement, child, [&](auto element) { return maker.write(element, columns, values); });
 }
 
-/// Per vertex: interior of a manifold, and neither it nor an edge of it is sharp.
+/// Returns per vertex whether it is an interior manifold vertex, and neither it nor an edge at it is sharp.
 inline std::vector<std::uint8_t> plain_vertices(const Topology& t, const Sharpness& sharpness) {
   std::vector<std::uint8_t> plain(t.num_vertices());
   parallel_for(t.num_vertices(), [&](std::int64_t i) {
@@ -560,8 +562,8 @@ inline std::vector<std::uint8_t> plain_vertices(const Topology& t, const Sharpne
   return plain;
 }
 
-/// Moves the blocks of rows together where some turned out shorter than planned (coinciding points on small meshes,
-/// weights of zero): the block's nonzeros end at end[block] and not where the next block starts.
+/// Closes gaps between blocks of rows, if some rows are shorter than planned (coinciding points on small
+/// meshes, weights of zero): the nonzeros of a block end at end[block], not where the next block starts.
 template <class T>
 SparseMatrixOf<T> compacted(const SparseMatrixOf<T>& loose, const std::vector<std::int64_t>& start,
                             const std::vector<std::int64_t>& end) {
@@ -580,8 +582,9 @@ SparseMatrixOf<T> compacted(const SparseMatrixOf<T>& loose, const std::vector<st
   return tight;
 }
 
-/// A matrix so small that the widest rows there could be fit a buffer: written at once, with no plan of lengths. Levels
-/// of single pieces of a limit are such, and most of their rows are blended, which planning would do twice.
+/// Fills a matrix so small that rows of the largest possible width fit into a buffer, in one pass, without
+/// planning lengths. Saves blending rows twice on levels of single pieces of a limit, where most rows are
+/// blended.
 template <class T, class Maker, class Write>
 SparseMatrixOf<T> assemble_small(Index rows, Index columns, Maker maker, const Write& write) {
   std::vector<Index> all_columns(size_t(rows) * columns);
@@ -600,7 +603,8 @@ SparseMatrixOf<T> assemble_small(Index rows, Index columns, Maker maker, const W
   return S;
 }
 
-/// Fills a matrix row by row: length_of(maker, r) plans, write(maker, r, columns, values) writes at most as many terms.
+/// Fills a matrix row by row: length_of(maker, r) returns an upper bound of the length, and write(maker, r,
+/// columns, values) writes at most as many terms.
 template <class T, class MakeMaker, class LengthOf, class Write>
 SparseMatrixOf<T> assemble(Index rows, Index columns, const MakeMaker& make_maker, const LengthOf& length_of,
                            const Write& write) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Classical curves and surfaces from recipes, which `sublimit construct --help` describes, or from a free-form .obj:
+// Classical curves and surfaces from a free-form .obj, or from recipes: JSON objects of a `kind`, which `sublimit
+// construct --help` lists; errors name the fields of a kind. Rational ones have `homogeneous` columns
+// (w x, w y, w z, w):
 //
 //   const Construction cone = construct("cone.json");
+//   const Construction quarter_circle = construct(R"({"kind": "nurbs_curve", "degree": 2, "knots": [0, 0, 0, 1, 1, 1],
+//                                                     "homogeneous": [[1, 0, 0, 1], [1, 1, 0, 1], [0, 2, 0, 2]]})");
 //   const Construction line = construct(R"({"kind": "bezier_curve", "degree": 1, "points": [[0, 0, 0], [1, 2, 0]]})");
 //   const LimitSamples samples = cone.surfaces().evaluate({{.face = 0, .u = 0.5, .v = 0.5}}, 1);
 //   const CurveSamples points = line.curves().evaluate({{.segment = 0, .t = 0.5}}, 2);

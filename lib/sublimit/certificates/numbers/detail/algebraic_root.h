@@ -20,7 +20,7 @@ class AlgebraicRoot {
   /// Returns all roots of a squarefree polynomial. Rational roots, and those of linear factors, have `exact()`.
   static std::vector<AlgebraicRoot> all(const Polynomial& squarefree);
   /// Makes the root that is the only one in an enclosure.
-  /// @throws AnalysisError  there is none, or the working precision does not suffice to tell
+  /// @throws AnalysisError  there is none, or the working precision does not suffice to decide
   static AlgebraicRoot nearest(const Polynomial& squarefree, const ComplexBall& enclosure);
 
   /// Returns a squarefree monic polynomial with this root, not always the minimal one.

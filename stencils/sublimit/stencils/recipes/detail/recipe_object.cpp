@@ -32,9 +32,11 @@ void RecipeObject::finish() const {
   for (const std::string& key : value_->keys) {
     if (known_.contains(key)) continue;
     const JsonValue shown{.type = JsonValue::Type::string, .text = key, .items = {}, .keys = {}};
+    std::string nearest = nearest_in_words(key, {known_.begin(), known_.end()}), all;
+    for (const std::string& field : known_) all += (all.empty() ? "; the fields are " : ", ") + field;
+    if (nearest.starts_with("there are")) all.clear();  // they are listed
     throw FormatError(place_ + ": unknown field " + show(shown) +
-                      (path_.empty() ? "" : " in " + path_.substr(0, path_.size() - 1)) + "; " +
-                      nearest_in_words(key, {known_.begin(), known_.end()}));
+                      (path_.empty() ? "" : " in " + path_.substr(0, path_.size() - 1)) + "; " + nearest + all);
   }
 }
 
