@@ -18,7 +18,7 @@ inline constexpr double eight_cut_decimals = 1e-8, three_decimals = 5.1e-4;
 /// Half of the last of so many printed decimals, and rounding.
 inline constexpr double four_decimals = 5.1e-5, five_decimals = 5.1e-6, six_decimals = 5.1e-7;
 
-/// The limit of a isolated vertex of valence n, or of a isolated n-gon if the scheme is dual.
+/// The limit of an isolated vertex of valence n, or of an isolated n-gon if the scheme is dual.
 IsolatedLimit isolated_centre(const std::string& name, int n, const SchemeOptions& options = {});
 
 /// Block k has exactly these eigenvalues with these multiplicities, by ranks.

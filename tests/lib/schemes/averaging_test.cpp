@@ -72,7 +72,7 @@ TEST(Averaging, BlockZeroIsTheRegularOneAtEveryValence) {
   }
 }
 
-/// Block k != 0 of a isolated place, from the averages themselves: places are labelled (sector; x, y) in quarters of
+/// Block k != 0 of an isolated place, from the averages themselves: places are labelled (sector; x, y) in quarters of
 /// the old mesh's unit, x along the sector's edge, and a label beyond an axis is one of the sector there.
 class AveragedBlock {
  public:

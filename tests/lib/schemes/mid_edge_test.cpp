@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Weights of the corners of a isolated n-gon in the first corner of its child, two steps later.
+/// Weights of the corners of an isolated n-gon in the first corner of its child, two steps later.
 Eigen::RowVectorXd two_steps(const std::string& name, int n) {
   return local_patch(find_scheme(name).value(), {.kind = Centre::Kind::face, .faces = n})->A.row(0);
 }

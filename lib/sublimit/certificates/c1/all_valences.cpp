@@ -18,7 +18,7 @@ using By = Hypothesis::By;
 /// Digits of balls: intervals are far wider than roundings.
 constexpr long bits = 64;
 /// How often intervals are halved before a proof gives up.
-constexpr int deepest = 12;
+constexpr int deepest_proof = 12;
 
 /// Valences at which the family is compared: up to 20 each, and some more.
 std::vector<int> checked_valences(int first) {
@@ -96,7 +96,7 @@ bool is_zero(const RingPolynomial& p) {
 /// Halves an interval until `holds` says yes on all parts.
 bool covered(double low, double high, const std::function<bool(double, double)>& holds, int depth = 0) {
   if (holds(low, high)) return true;
-  if (depth == deepest) return false;
+  if (depth == deepest_proof) return false;
   const double middle = low + (high - low) / 2;
   return covered(low, middle, holds, depth + 1) && covered(middle, high, holds, depth + 1);
 }

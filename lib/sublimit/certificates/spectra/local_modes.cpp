@@ -46,7 +46,7 @@ std::optional<LocalModes> local_modes(const Scheme<double>& scheme, const LocalT
   const auto patch = local_patch(scheme, type, rings);
   if (!patch) return std::nullopt;
   const auto fourier = fourier_blocks(patch->A, aligned_orbits(*patch));
-  if (!fourier) throw AnalysisError(scheme.name + ": a isolated neighbourhood is not rotationally symmetric");
+  if (!fourier) throw AnalysisError(scheme.name + ": an isolated neighbourhood is not rotationally symmetric");
   LocalModes result;
   result.dilation = scheme.dilation();
   result.net = sector_mesh(type.kind, type.faces, scheme.face_size() == 3 ? 3 : 4, rings);

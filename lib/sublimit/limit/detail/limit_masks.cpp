@@ -291,7 +291,7 @@ std::optional<IsolatedLimit> isolated_limit(const Scheme<double>& scheme, const 
       ring.push_back(static_cast<Index>(at - patch->slots.begin()));
   if (!open) {
     const auto blocks = sector_rows(patch->A, patch->orbits);
-    if (!blocks) throw AnalysisError(scheme.name + ": a isolated neighbourhood is not rotationally symmetric");
+    if (!blocks) throw AnalysisError(scheme.name + ": an isolated neighbourhood is not rotationally symmetric");
     masks.position = position_mask(patch->A, centre, blocks);
     add_ring_tangents(side, *blocks);
     const SparsePatch<double>& wider = patches->back();
