@@ -7,7 +7,7 @@ namespace sublimit {
 namespace {
 
 /// How often a piece is quartered: intervals of h are halved before that helps much.
-constexpr int deepest = 2;
+constexpr int deepest_turn = 2;
 
 /// Any valence that keeps the neighbouring sectors apart.
 constexpr int many = 1000;
@@ -17,7 +17,7 @@ std::optional<Ball> positive_bound(const Bernstein<Ball>& f, int depth) {
   for (const Ball& c : f.coefficients())
     if (c.lower() < least.lower()) least = c;
   if (certainly_positive(least)) return Ball(least.lower());
-  if (depth == deepest) return std::nullopt;
+  if (depth == deepest_turn) return std::nullopt;
   std::optional<Ball> all;
   for (const Bernstein<Ball>& quarter : f.quarters()) {
     const auto own = positive_bound(quarter, depth + 1);
