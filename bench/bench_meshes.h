@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The meshes that are refined, as control meshes and as OpenSubdiv takes them.
+// The meshes of the benchmarks, as control meshes and in the form that OpenSubdiv takes.
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -17,9 +17,9 @@ struct Case {
   Mesh mesh;
 };
 
-/// The car, where it exists; tori of 100k quads and of 100k triangles, regular throughout; 33k triangles split into
-/// 100k quads, which makes half of the vertices extraordinary.
-/// @param quick  of 1000 faces instead
+/// Returns the car, if its file exists; regular tori of 100k quads and of 100k triangles; and 33k triangles
+/// split into 100k quads, where half of the vertices are extraordinary.
+/// @param quick  true: meshes of about 1000 faces instead (not the car)
 inline std::vector<Case> cases(bool quick = false) {
   std::vector<Case> list;
   const std::filesystem::path car = std::filesystem::path(SUBLIMIT_SHARED_MESHES) / "catmark_car.obj";
@@ -36,7 +36,7 @@ inline std::vector<Case> cases(bool quick = false) {
   return list;
 }
 
-/// A case as OpenSubdiv looks at it; keeps the arrays that it looks at.
+/// A case in the form that OpenSubdiv takes, with the arrays that it refers to.
 struct PeerCase {
   std::vector<int> crease_vertices, corner_vertices;
   std::vector<float> crease_sharpness, corner_sharpness;

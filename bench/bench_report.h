@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What benches that take turns have in common: their command line, the turns, and the report, which is printed row by
-// row and, with `--json FILE`, written for programs (bench/run_all) as well.
+// Common parts of benchmarks that measure several contenders in turns: the command line, the turns, and the
+// report. It is printed row by row and, with `--json FILE`, also written for programs (bench/run_all):
 //
 //     {"program": "refine_bench", "compiler": "12.2.0", "flags": "-O3 -DNDEBUG", "assertions": false, "turns": 5,
 //      "keep memory": false, "quick": false, "write bandwidth": 9.1e9,
@@ -15,12 +15,12 @@
 
 namespace sublimit::bench {
 
-enum class Role { ours, peer, shown };  ///< `shown`: besides, in no ratio
+enum class Role { ours, peer, shown };  ///< `shown`: printed, but not part of ratios
 
 struct Contender {
   std::string name;
   Role role = Role::ours;
-  std::function<double()> seconds;  ///< takes a turn
+  std::function<double()> seconds;  ///< runs the work once and returns its time in seconds
 };
 
 /// A piece of work on a mesh.
@@ -28,41 +28,42 @@ struct Work {
   std::string work, mesh, detail;  ///< "apply", "torus", "level 3"
   int threads = 1;
   std::string unit = "ms";
-  double scale = 1e3;  ///< units a second
+  double scale = 1e3;  ///< units per second
 };
 
 class Report {
  public:
-  /// Reads `--ratios [N = 5] --json FILE --only TEXT --threads N --quick --keep-memory` out of the arguments and leaves
-  /// the others.
+  /// Reads `--ratios [N = 5] --json FILE --only TEXT --threads N --quick --keep-memory`, and removes them from
+  /// the arguments.
   Report(std::string program, int& argc, char** argv);
 
-  /// Takes turns though `--ratios` is not given: for programs that do nothing else.
-  /// @param turns  as many, or those of `--ratios`
+  /// Takes turns even if `--ratios` is not given, for programs that do nothing else.
+  /// @param turns  number of turns if `--ratios` gives none
   void take_turns(int turns);
-  /// Turns to take; 0: not asked for, Google Benchmark's own options hold.
+  /// Returns the number of turns; 0: run Google Benchmark instead, with its options.
   int turns() const { return turns_; }
-  /// Meshes are to be small: to see that all runs.
+  /// Returns true if meshes should be small, to test only that the program runs.
   bool quick() const { return quick_; }
-  /// Numbers of threads to measure with: 1 and all, or the one given.
+  /// Returns the numbers of threads to measure with: 1 and all, or the one given.
   const std::vector<int>& threads() const { return threads_; }
-  /// `--only` names a part of "work mesh detail": whether this is the work, or may be some of it.
+  /// Returns true if a work is selected by `--only`, whose text is a part of "work mesh detail". Without mesh
+  /// or detail: true if some of the work may be selected.
   bool wants(const std::string& work, const std::string& mesh = {}, const std::string& detail = {}) const;
 
-  /// Lets all take turns, the first of which warms up, and prints and keeps a row.
-  /// @param turns  0: as many as were asked for
+  /// Lets all contenders take turns, of which the first only warms up, then prints and keeps a row.
+  /// @param turns  number of turns; 0: `turns()`
   void measure(const Work& work, const std::vector<Contender>& contenders, int turns = 0);
-  /// What was measured otherwise: all turns of each contender, as `Work::scale` has it.
+  /// Values of a contender that were measured otherwise, one for each turn, in `Work::unit`.
   struct Values {
     std::string name;
     Role role = Role::ours;
     std::vector<double> values;  ///< not empty
   };
   void add(const Work& work, const std::vector<Values>& values);
-  /// Keeps a number that no clock has touched, for comparison between versions.
+  /// Keeps a number that does not depend on time, for comparison between versions.
   void count(const std::string& of, const std::string& what, double number) { counts_[of][what] = number; }
 
-  /// Writes the JSON, if asked for.
+  /// Writes the JSON if `--json` is given.
   /// @return  the exit status
   int finish() const;
 
@@ -82,7 +83,7 @@ class Report {
   int turns_ = 0;
   bool quick_ = false, keep_memory_ = false;
   std::vector<int> threads_;
-  double bandwidth_ = 0;  ///< bytes per second that one thread writes
+  double bandwidth_ = 0;  ///< bytes per second that one thread can write
   std::vector<Row> rows_;
   std::map<std::string, std::map<std::string, double>> counts_;
 };

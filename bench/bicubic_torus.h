@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What can be had at most: level k of a torus of m x n quadrilaterals by a loop that knows the grid, that its patches
-// are tensor products, and nothing else. No table, no lists of control points.
+// Upper bound of the speed of any table: level 3 of a torus of m x n quadrilaterals by a loop that uses the
+// grid and the tensor products of its patches, without a table or lists of control points.
 #include <tbb/parallel_for.h>
 
 #include <span>
@@ -11,7 +11,7 @@ namespace sublimit::bench {
 
 class BicubicTorus {
  public:
-  /// Level 3: 8 x 8 points a patch.
+  /// Makes the weights of level 3, with 8 x 8 points on each patch.
   BicubicTorus(int m, int n) : m_(m), n_(n), weights_(4 * N) {
     // Three times two-scale relation of cubic B-splines, on unit vectors of four control points.
     for (int k = 0; k < 4; ++k) {
@@ -31,7 +31,7 @@ class BicubicTorus {
     }
   }
 
-  /// x y z interleaved, 8 x 8 points a patch, patch by patch.
+  /// Sets the points of level 3, patch by patch, 8 x 8 on each; coordinates x y z are interleaved.
   void apply(std::span<const float> points, std::span<float> result) const {
     tbb::parallel_for(tbb::blocked_range<int>(0, m_, 4), [&](const tbb::blocked_range<int>& r) {
       for (int i = r.begin(); i < r.end(); ++i) rows(i, points.data(), result.data());

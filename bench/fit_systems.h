@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Linear systems of fitting, large.
+// Large linear systems of fits.
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ struct FitSystem {
   std::function<FitProblem()> make;
 };
 
-/// On tori of about `vertices` control points:
+/// Returns systems on tori of about `vertices` control points:
 ///
 ///     points    Catmull-Clark through a point for each control point: square
 ///     normals   points and normals of a quarter as many vertices, refined once: fewer conditions than unknowns, one

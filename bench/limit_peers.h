@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Points of the limit surface of Catmull-Clark, by us and by others, each as it is best used: places are in the
-// evaluator's own form and results have their memory before the clock starts; with several threads, blocks of places
-// are evaluated in parallel.
+// Evaluation of Catmull-Clark limit surfaces by this library and by others, each in its fastest way: before the
+// clock starts, places are converted to the evaluator's form and memory for results is allocated. With several
+// threads, blocks of places are evaluated in parallel.
 #include <memory>
 #include <span>
 #include <string>
@@ -17,29 +17,30 @@ class LimitEvaluator {
  public:
   virtual ~LimitEvaluator() = default;
 
-  /// From connectivity to all that must be there before a point is asked for; what was there before is forgotten.
+  /// Prepares everything that is needed before the first evaluation, from the connectivity on. Earlier
+  /// preparations are discarded.
   virtual void start() = 0;
-  /// What would else be found at the first use. The others have nothing.
+  /// Computes data that would otherwise be computed on first use. Only this library has such data.
   virtual void prepare() {}
-  /// Back to the connectivity: it is made anew where starting has changed it. Outside the clock.
+  /// Goes back to the connectivity, which is rebuilt if `start` changes it. Not timed.
   virtual void forget() = 0;
 
-  /// Where points are asked for. Outside the clock, once started.
+  /// Sets the places to evaluate. Called after `start`; not timed.
   virtual void set_places(std::span<const Place> places) = 0;
-  /// Positions and derivatives up to `order` at all places.
+  /// Evaluates positions and derivatives up to `order` at all places.
   virtual void evaluate(int order) = 0;
 
-  /// Position at a place after `evaluate`; to see that all evaluators mean the same place.
+  /// Returns the position at a place after `evaluate`, to check that all evaluators mean the same place.
   virtual Eigen::Vector3d position(size_t place) const = 0;
 };
 
-/// Who can be asked.
+/// A contender: its name, and the function that makes its evaluator.
 struct LimitContender {
   std::string name;
   std::unique_ptr<LimitEvaluator> (*make)(const Case&);
 };
 
-/// Peers that keep looking at the mesh.
+/// Evaluators of other libraries, which refer to the mesh.
 ///   Bfr     a Surface per face, initialised by a factory with its cache (plain on one thread, with a lock on several),
 ///           patch points computed
 ///   Far     a PatchTable (isolation level 4, sharp patches, Gregory end caps), its PatchMap, refined points
@@ -50,7 +51,8 @@ std::unique_ptr<LimitEvaluator> far_float(const Case& mesh);
 std::unique_ptr<LimitEvaluator> far_double(const Case& mesh);
 std::unique_ptr<LimitEvaluator> embree(const Case& mesh);
 
-/// Ours: `LimitMap`, prepared a `LimitSurface`; without normals, as the others, and with them from order 1 on.
+/// Evaluators of this library: `LimitMap`, or after `prepare` a `LimitSurface`; without normals, as the others,
+/// or with normals from order 1 on.
 std::unique_ptr<LimitEvaluator> our_limits(const Case& mesh);
 std::unique_ptr<LimitEvaluator> our_limits_and_normals(const Case& mesh);
 

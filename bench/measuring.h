@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the benchmarks share: threads, clock, the machine's own speed.
+// Common parts of the benchmarks: numbers of threads, clocks, memory, the write bandwidth of the machine.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 #include <sched.h>
@@ -24,7 +24,8 @@ inline std::vector<int> thread_counts() {
   return all == 1 ? std::vector<int>{1} : std::vector<int>{1, all};
 }
 
-/// A number of threads for us; one thread is pinned, so that the scheduler does not move it.
+/// Scope that limits the threads of this library. A single thread is pinned, so that the scheduler does not
+/// move it.
 class Threads {
  public:
   explicit Threads(int count) : limit_(tbb::global_control::max_allowed_parallelism, size_t(count)) {
@@ -51,7 +52,7 @@ inline double seconds(const auto& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Of the calling thread alone: what other programs on the machine take is left out.
+/// Returns the CPU time of the calling thread in seconds, which other programs on the machine do not affect.
 inline double cpu_seconds(const auto& work) {
   const auto now = [] {
     timespec time;
@@ -63,10 +64,10 @@ inline double cpu_seconds(const auto& work) {
   return now() - start;
 }
 
-/// The processor's time on one thread, that of the wall on several.
+/// Returns the CPU time of work on one thread, or the wall time of work on several threads.
 inline double timed(int threads, const auto& work) { return threads == 1 ? cpu_seconds(work) : seconds(work); }
 
-/// Bytes per second of writing memory that is there already.
+/// Returns the bytes per second of writing to memory that is already mapped.
 inline double write_bandwidth() {
   std::vector<char> block(size_t{1} << 28, 1);
   double best = 0;
@@ -79,16 +80,17 @@ inline double write_bandwidth() {
   return best;
 }
 
-/// Bytes of memory that the process held at most since the last call of `forget_peak_bytes`: its peak resident set.
+/// Returns the peak resident set of the process in bytes since the last call of `forget_peak_bytes`.
 inline double peak_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
     if (line.starts_with("VmHWM:")) return 1024 * std::atof(line.c_str() + 6);
   return 0;
 }
-/// @return  what the process holds now
+/// Resets the peak.
+/// @return  current resident set in bytes
 inline double forget_peak_bytes() {
-  malloc_trim(0);  // what is freed is given back, so that taking it again counts
+  malloc_trim(0);  // returns freed memory to the system, so that using it again counts
   std::ofstream("/proc/self/clear_refs") << 5;
   return peak_bytes();
 }
@@ -105,7 +107,7 @@ inline void register_write_bandwidth() {
   });
 }
 
-/// Runs what is registered under Google Benchmark's own options. What was registered must live as long.
+/// Runs the registered benchmarks with Google Benchmark's options. Objects that they refer to must still exist.
 /// @return  the exit status
 inline int run_benchmarks(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);

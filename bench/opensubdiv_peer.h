@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// OpenSubdiv as it is best used for the jobs that the benchmarks time against ours. Thin: between the clock and the
-// library there is nothing but the arrays it asks for. Its refinement and its stencil factory use one thread, always.
+// OpenSubdiv in its fastest way for the jobs of the benchmarks. The wrapper is thin: timed code contains only
+// calls of the library and the arrays that it needs. Its refinement and its stencil factory always use one
+// thread.
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -10,7 +11,7 @@ namespace sublimit::bench {
 
 enum class PeerScheme { bilinear, catmull_clark, loop };
 
-/// A mesh as OpenSubdiv takes it, looked at where it is. Boundary edges and corners are sharp (edge_and_corner).
+/// A mesh for OpenSubdiv, as references to arrays. Boundary edges and corners are sharp (edge_and_corner).
 struct PeerMesh {
   PeerScheme scheme = PeerScheme::catmull_clark;
   int num_vertices = 0;
@@ -21,20 +22,20 @@ struct PeerMesh {
   std::span<const float> corner_sharpness;
 };
 
-/// What came out, so that it is not optimised away and can be compared with ours.
+/// Summary of the results, so that they are not optimised away and can be compared with those of this library.
 struct PeerPositions {
-  std::size_t vertices = 0;  ///< of levels 1 to the last, together
-  double checksum = 0;       ///< absolute coordinates of every 1000th vertex of the last level, summed: free of charge
+  std::size_t vertices = 0;  ///< number of vertices of levels 1 to the last
+  double checksum = 0;       ///< sum of absolute coordinates of every 1000th vertex of the last level
 };
 struct PeerStencils {
   std::size_t stencils = 0, weights = 0;
 };
 
-/// Connectivity of all levels: `TopologyRefinerFactory::Create` and `RefineUniform`, both in the constructor.
+/// The connectivity of all levels, by `TopologyRefinerFactory::Create` and `RefineUniform` in the constructor.
 ///
-/// Options are those that make it fastest: no validation, vertices ordered from vertices first, and of the last level
-/// the face vertices only, which is all that interpolation and stencils need; or, on demand, its edges and the rest
-/// too.
+/// Options are the fastest ones: no validation, children of vertices first, and for the last level only the
+/// vertices of faces, which suffice for interpolation and stencils; or, with `whole_last_level`, all of its
+/// topology.
 class PeerRefiner {
  public:
   /// @throws std::runtime_error  if OpenSubdiv refuses the mesh
@@ -47,13 +48,13 @@ class PeerRefiner {
   std::size_t num_vertices(int level) const;
   std::size_t num_faces(int level) const;
 
-  /// Positions of levels 1 to the last by `PrimvarRefiner::Interpolate`, x y z interleaved, into one array of the
-  /// refiner's own making, left uninitialised; weights are of the type of the positions.
+  /// Computes the positions of levels 1 to the last by `PrimvarRefiner::Interpolate`, x y z interleaved, in an
+  /// uninitialised array that it allocates. Weights have the type of the positions.
   PeerPositions refine(std::span<const double> positions) const;
   PeerPositions refine(std::span<const float> positions) const;
 
-  /// Stencils of the last level over the control vertices (our P_k) by `StencilTableFactory::Create`, with offsets,
-  /// without intermediate levels.
+  /// Makes the stencils of the last level over the control vertices (P_k in this library) by
+  /// `StencilTableFactory::Create`, with offsets, without intermediate levels.
   PeerStencils stencils_double() const;
   PeerStencils stencils_float() const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A point as OpenSubdiv's refiners and stencils sum it; an array of them is an array of coordinates.
+// The point type for sums of OpenSubdiv's refiners and stencils. An array of points is an array of coordinates.
 
 namespace sublimit::bench {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Where all of OpenSubdiv begins: the connectivity of a mesh, not refined yet.
+// OpenSubdiv's connectivity of an unrefined mesh, from which everything else is made.
 #include <opensubdiv/far/topologyRefiner.h>
 
 #include <memory>

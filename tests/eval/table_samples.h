@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Small tables made by hand, and what makes two tables equal.
+// Small hand-made tables, and a comparison of tables.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 namespace sublimit::testing {
 
-/// Two quadrilaterals side by side, (0,1,2,3) and (1,4,5,2), with 3 x 3 points on each of the bilinear surface, and the
-/// isolated vertex 6 as a point of its own: 9 + 6 + 1 points from 7.
-/// @param quantities  1, or 3 for the derivatives too
+/// Returns a table of two adjacent quadrilaterals, (0,1,2,3) and (1,4,5,2), with 3 x 3 points of the bilinear
+/// surface on each, and of the isolated vertex 6: 9 + 6 + 1 points from 7 control points.
+/// @param quantities  1, or 3 with first derivatives
 template <class Real>
 BakedTable<Real> two_quads(int quantities = 1) {
   const Lattice lattice{2, false};
@@ -70,7 +70,7 @@ BakedTable<Real> two_quads(int quantities = 1) {
   return baked;
 }
 
-/// The same with everything else that a table can have: a first step, places of points, copies, statuses, faces,
+/// Returns this table with all optional parts: a first step, places of points, copies, statuses, faces,
 /// addresses.
 template <class Real>
 BakedTable<Real> everything() {
@@ -131,7 +131,7 @@ void expect_equal(const char* name, const std::optional<StencilTable<Real>>& a,
   expect_equal(name, a->weights(), b->weights());
 }
 
-/// To the bit, in all parts.
+/// Expects that two tables are equal to the bit in all parts.
 template <class Real>
 void expect_equal(const BakedTable<Real>& x, const BakedTable<Real>& y) {
   const typename PatternTable<Real>::Arrays &a = x.table.arrays(), &b = y.table.arrays();

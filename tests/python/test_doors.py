@@ -137,7 +137,7 @@ WORDS = [
     Row("step", None, "face_names", "face_names", "the program has those of the file"),
     Row("step", None, "path", "path", "the program has --output"),
     Row("step", None, "patches", None, "Python has one argument for both"),
-    Row("bake", "tessellation", "at face_sizes face_vertices", "tessellation",
+    Row("bake", "tessellation", "face_sizes face_vertices", "tessellation",
         "C++ takes the faces between any places"),
     Row("bake", "precision", "in_double", "precision", "a word of the shell and of Python, float or double"),
     Row("bake", "tags", None, None, "for files that `apply` writes"),

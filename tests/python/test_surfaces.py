@@ -254,7 +254,7 @@ def test_refuses_tessellations(cube: sublimit.Mesh, icosahedron: sublimit.Mesh) 
 def test_searches_are_functions_too(cube: sublimit.Mesh) -> None:
     surface = sublimit.LimitSurface(cube, "catmull-clark")
     points = np.random.default_rng(1).random((5, 3)) * 2
-    near: dict[str, Any] = dict(count=2, radius=1.5, signed=True)
+    near: dict[str, Any] = dict(nearest=2, radius=1.5, signed=True)
     rays: dict[str, Any] = dict(all=True, tmax=3)
     pairs: list[tuple[Any, Any]] = [
         (sublimit.closest(surface, points, **near), surface.closest(points, **near)),

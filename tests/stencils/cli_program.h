@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The program as a child process, and what it said.
+// Running the program as a child process, and its output.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -25,15 +25,16 @@ namespace sublimit::testing {
 struct Outcome {
   int status = -1;  ///< -1: killed by a signal
   std::string out, err;
-  long peak_kb = 0;  ///< of memory
+  long peak_kb = 0;  ///< peak memory, KB
 };
 
-/// A run of the program that has begun.
+/// A running program.
 class Program {
  public:
-  /// @param prepare  runs in the child before the program does: limits and the like, nothing that takes memory
-  /// @param error    where stderr goes instead of `Outcome::err`
-  /// @param program  a copy of it, say
+  /// @param prepare  called in the child before the program starts, to set limits for example; must not
+  ///                 allocate memory
+  /// @param error    descriptor for stderr instead of `Outcome::err`
+  /// @param program  path of another program, a copy for example
   explicit Program(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}, int error = -1,
                    const char* program = SUBLIMIT_PROGRAM)
       : out_(std::tmpfile()), err_(std::tmpfile()) {
@@ -104,7 +105,7 @@ inline Outcome expect_done(const Outcome& outcome, bool warned = false) {
   return outcome;
 }
 
-/// Expects an answer, and that it is no.
+/// Expects an answer, which is no.
 inline Outcome expect_no(const Outcome& outcome) {
   EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;
   EXPECT_EQ(outcome.err, "");
@@ -124,7 +125,7 @@ inline size_t count_of(std::string_view text, std::string_view part) {
   return count;
 }
 
-/// Runs `refine` and `limit` on a file of this name and text; they must fail and write nothing.
+/// Runs `refine` and `limit` on a file of this name and text, and expects that they fail and write nothing.
 inline void expect_refused(const std::string& name, const std::string& text, const std::vector<std::string>& arguments,
                            int status, std::initializer_list<std::string_view> parts,
                            const std::string& output = "out.obj") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A mesh in a directory, and the program making tables of it.
+// Fixture: a mesh in a directory, and the program that makes tables of it.
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
@@ -30,7 +30,7 @@ class Tables {
   const std::string mesh = (directory / "mesh.obj").string(), table = (directory / "table.safetensors").string();
 };
 
-/// A jittered cube with an infinite and a semi-sharp crease.
+/// Returns a jittered cube with an infinite and a semi-sharp crease.
 inline Mesh creased_cube() {
   Mesh mesh = jittered(cube());
   mesh.creases = {{0, 1, 10}, {1, 3, 10}, {4, 5, 1.5f}};

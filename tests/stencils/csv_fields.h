@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Tables in CSV that the program writes: no field of them has quotes.
+// Reading CSV files that the program writes, whose fields have no quotes.
 #include <gtest/gtest.h>
 
 #include <filesystem>

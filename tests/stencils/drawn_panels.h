@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What is drawn in an SVG picture of panels, as numbers: strokes as points on the paper, and the camera that put known
-// points there.
+// Reading an SVG picture of panels: strokes as points in the picture, and the camera that maps known points to
+// them.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -27,7 +27,7 @@ struct DrawnPanel {
   int fills = 0;  ///< outlines of faces
   std::vector<Stroke> strokes;
 
-  /// The stroke of this width, or nothing drawn.
+  /// Returns the stroke of this width; empty if there is none.
   Stroke stroke(int width) const {
     for (const Stroke& s : strokes)
       if (s.width == width) return s;
@@ -40,7 +40,7 @@ struct DrawnPanel {
   }
 };
 
-/// Path data of relative moves and lines (m, implied l, h0 for a dot, z).
+/// Reads path data of relative moves and lines (m, implied l, h0 for a dot, z).
 inline std::vector<std::vector<Eigen::Vector2d>> pieces_of(std::string_view data) {
   std::vector<std::vector<Eigen::Vector2d>> pieces;
   Eigen::Vector2d at(0, 0);
@@ -102,8 +102,9 @@ inline std::vector<DrawnPanel> read_panels(std::string_view svg) {
   return panels;
 }
 
-/// The camera of pictures, azimuth and elevation as they are by default, found from points and their places: all the
-/// rest (what is shown, its size, how far the eye is) is six numbers that the places depend on linearly.
+/// The camera of a picture with default azimuth and elevation, computed from points and their positions in the
+/// picture. The other parameters (frame, scale, distance of the eye) are six numbers, determined by linear
+/// equations.
 class FoundCamera {
  public:
   FoundCamera(const Points& points, const std::vector<Eigen::Vector2d>& places) {
@@ -129,7 +130,7 @@ class FoundCamera {
     return Eigen::Vector2d(x_[1] - x_[3] * q.z() + x_[5] * q.x(), x_[2] - x_[4] * q.z() - x_[5] * q.y()) /
            (x_[0] - q.z());
   }
-  /// Of the points that it was found from.
+  /// Returns the error at the points from which the camera was computed.
   double error() const { return error_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A strict reader of the markup that pages are made of: every element closed, every attribute quoted, every entity
+// A strict reader for the markup of pages: every element must be closed, every attribute quoted, every entity
 // known.
 #include <gtest/gtest.h>
 
@@ -13,11 +13,11 @@
 namespace sublimit::testing {
 
 struct Markup {
-  std::string fault;                    ///< the first one; empty: well-formed
-  std::map<std::string, int> elements;  ///< how often
-  std::map<std::string, int> ids;       ///< how often
+  std::string fault;                    ///< first fault; empty if well-formed
+  std::map<std::string, int> elements;  ///< number of occurrences
+  std::map<std::string, int> ids;       ///< number of occurrences
   std::vector<std::string> links;       ///< values of href
-  int images = 0, untitled = 0;         ///< SVG with role img, and those of them without a title first
+  int images = 0, untitled = 0;         ///< SVG with role img; of these, ones that do not start with a title
 };
 
 /// Reads HTML in which only `meta`, `br`, `img` and elements that end in "/>" have no end tag.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What the project's documents tell their readers to type: command lines out of Markdown.
+// Command lines in the project's documents, extracted from Markdown.
 #include <algorithm>
 #include <filesystem>
 #include <regex>
@@ -15,7 +15,7 @@ namespace sublimit::testing {
 /// Lines of a document that are indented by four spaces, or between fences.
 struct CodeBlock {
   std::string document, section;
-  std::string language;  ///< of a fence; empty: indented
+  std::string language;  ///< language of a fence; empty for indented blocks
   std::vector<std::string> lines;
 };
 
@@ -29,7 +29,8 @@ struct Page {
   std::vector<Paragraph> paragraphs;
 };
 
-/// @param name  of the document, from the root of the project
+/// Reads the code blocks and paragraphs of a document.
+/// @param name  path of the document from the root of the project
 inline Page read_page(const std::string& name, const std::string& text) {
   Page page;
   std::string section;
@@ -63,7 +64,7 @@ inline Page read_page(const std::string& name, const std::string& text) {
   return page;
 }
 
-/// Every Markdown file of the project, from its root.
+/// Returns the paths of all Markdown files of the project, from its root.
 inline std::vector<std::string> documents() {
   const std::filesystem::path root = SUBLIMIT_SOURCE;
   std::vector<std::string> names;
@@ -88,9 +89,9 @@ inline const std::vector<std::pair<std::string, Page>>& pages() {
 
 struct CommandLine {
   std::string document, section;
-  std::string text;  ///< as written: a line and those that it goes on with, or a whole script
+  std::string text;  ///< as written: a line with its continuations, or a whole script
 
-  /// The text as one line.
+  /// Returns the text as one line.
   std::string line() const {
     std::string one = text;
     std::ranges::replace(one, '\n', ' ');
@@ -105,7 +106,7 @@ inline bool begins_with_program(const std::string& text) {
   return std::regex_match(text, program);
 }
 
-/// Words between backticks, with line breaks as spaces.
+/// Returns the texts between backticks, with line breaks as spaces.
 inline std::vector<std::string> code_spans(const std::string& paragraph) {
   std::vector<std::string> spans;
   for (size_t at = 0; (at = paragraph.find('`', at)) != std::string::npos;) {
@@ -119,7 +120,8 @@ inline std::vector<std::string> code_spans(const std::string& paragraph) {
   return spans;
 }
 
-/// Command lines of a block: those that begin with a program's name, with their continuations; a script is one.
+/// Returns the command lines of a block: lines that begin with a program's name, with their continuations, or
+/// the block as one if it is a script.
 inline std::vector<CommandLine> commands_of(const CodeBlock& block) {
   std::vector<CommandLine> commands;
   if (!block.language.empty() && block.language != "bash" && block.language != "sh" && block.language != "console")
@@ -139,8 +141,8 @@ inline std::vector<CommandLine> commands_of(const CodeBlock& block) {
   return commands;
 }
 
-/// Every command line of every document, in the order of the document but for those in sentences, which come last.
-/// In sentences, a name alone or a verb of `sublimit` alone is none.
+/// Returns every command line of every document, in order, except that those in sentences are last. In
+/// sentences, only a program's name, or only a subcommand after it, is not a command line.
 inline std::vector<CommandLine> command_lines() {
   std::vector<CommandLine> commands;
   static const std::regex name_alone(R"(sublimit \S+|[^/ ]\S*|\S*/sublimit)");

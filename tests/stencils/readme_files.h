@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Files that the documents' command lines suppose to be there.
+// Files that command lines in the documents expect.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -19,19 +19,19 @@
 
 namespace sublimit::testing {
 
-/// "sublimit-demo/", by the program.
+/// Makes "sublimit-demo/" by the program.
 inline void run_demo(const std::filesystem::path& folder) {
   expect_done(sublimit({"demo", (folder / "sublimit-demo").string()}));
 }
 
 inline void write_text(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
 
-/// The square's corners: polygon.csv.
+/// Writes polygon.csv, the corners of a square.
 inline void write_polygon(const std::filesystem::path& folder) {
   write_text(folder / "polygon.csv", "0,0\n1,0\n1,1\n0,1\n");
 }
 
-/// The jobs that a document shows, an object a line.
+/// Returns the jobs of a manifest that a document shows.
 inline std::vector<nlohmann::ordered_json> shown_jobs() {
   std::vector<nlohmann::ordered_json> jobs;
   for (const auto& [document, page] : pages())
@@ -41,8 +41,8 @@ inline std::vector<nlohmann::ordered_json> shown_jobs() {
   return jobs;
 }
 
-/// The demo's mesh in triangles, for every scheme, with texture coordinates: cage.obj; frames of it: animation.npy; the
-/// jobs that the text shows and their meshes.
+/// Writes cage.obj, the demo's mesh in triangles for every scheme, with texture coordinates; animation.npy,
+/// frames of it; the manifest that the text shows, and its meshes.
 inline void write_cages(const std::filesystem::path& folder) {
   const Mesh cage = with_channel(triangulated(demo_mesh()), {});
   write_obj(folder / "cage.obj", cage);
@@ -63,7 +63,8 @@ inline void write_cages(const std::filesystem::path& folder) {
   write_text(folder / "jobs.jsonl", manifest);
 }
 
-/// A cube, and at each of its corners the point itself and a normal: the picture beside the commands.
+/// Writes a cube, and targets with the position and a normal at each corner, as in the picture beside the
+/// commands.
 inline void write_cube_with_normals(const std::filesystem::path& folder) {
   const Mesh mesh = cube();
   write_obj(folder / "cage.obj", mesh);
@@ -76,11 +77,12 @@ inline void write_cube_with_normals(const std::filesystem::path& folder) {
   write_text(folder / "normals.csv", targets.str());
 }
 
-/// What a script asks SLURM for: `#SBATCH --array=1-8 --cpus-per-task=4`. No array: 0 to 0.
+/// The job array that a script requests from SLURM: `#SBATCH --array=1-8 --cpus-per-task=4`. Without an array:
+/// 0 to 0.
 struct JobArray {
   int first = 0, last = 0, cpus = 1;
 
-  /// What SLURM sets for a task of it.
+  /// Returns the variables that SLURM sets for a task.
   std::string variables(int task) const {
     return "SLURM_ARRAY_TASK_ID=" + std::to_string(task) +
            " SLURM_ARRAY_TASK_COUNT=" + std::to_string(last - first + 1) +

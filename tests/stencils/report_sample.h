@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Reports as stencils/report_format.md has them, made up but of the right shape and size: what pages are tested with.
+// Artificial reports in the format of stencils/report_format.md, of realistic shape and size, for tests of
+// pages.
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -27,7 +28,7 @@ inline SampleJson sample_verdict(const std::string& property, const std::string&
           {"witness", {{"kind", "bernstein"}, {"coefficients", {"1/2", "3/4"}}}}};
 }
 
-/// A sector grid of `rings` rings around a centre as the plane has it: labels, points, quads.
+/// A plane sector grid of `rings` rings around a centre: labels, points, quads.
 struct SampleNet {
   std::vector<std::array<int, 3>> labels;
   std::vector<std::complex<double>> points;
@@ -167,7 +168,7 @@ inline SampleJson sample_neighborhood(const std::string& kind, int n) {
           {"verdicts", verdicts}};
 }
 
-/// A regular part: bicubic B-splines, quartic box splines or the cubic curve, by the word for the grid.
+/// Returns a regular part: bicubic B-splines, quartic box splines or the cubic curve, by the word for the grid.
 inline SampleJson sample_regular(const std::string& grid) {
   const int row[5] = {1, 4, 6, 4, 1};
   const auto cubic = [](double t) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Subcommands of the program, asked of its own help.
+// Subcommands of the program, read from its help.
 #include <regex>
 #include <set>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace sublimit::testing {
 
-/// Names under "Subcommands:" of `sublimit --help`.
+/// Returns the names under "Subcommands:" of `sublimit --help`.
 inline std::set<std::string> subcommands() {
   const std::string help = expect_done(sublimit({"--help"})).out;
   static const std::regex line(R"(\n  ([a-z]+)  )");

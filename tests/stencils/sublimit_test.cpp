@@ -341,17 +341,6 @@ Scheme<T> mine(int weight) {
       .creases = cubic_bspline_creases<T>()};
 }
 
-/// Another weight where one sharp edge ends.
-template <class T>
-Scheme<T> mine_at_darts(int weight) {
-  Scheme<T> scheme = mine<T>(1);
-  const auto smooth = scheme.steps[0].masks.vertex;
-  scheme.steps[0].masks.vertex = [=](const Ring<T>& v) {
-    return v.is_closed() ? smooth(v) : Stencil<T>((weight * v.center() + v.neighbor_mean()) / (weight + 1));
-  };
-  return scheme;
-}
-
 TEST(Verbs, WhatTemporariesReturnLives) {
   const std::string& json = analyze("loop", {.valences = {3}}).json();
   const Points& points = LimitSurface(cube(), "catmull-clark").points();
@@ -367,10 +356,6 @@ TEST(Verbs, ReportsNeedTheSameMasksInBothNumbers) {
   EXPECT_NE(analyze(mine<double>(1), mine<Algebraic>(1), {.valences = {4, 3, 4}}).json(), "");
   expect_error<InvalidParameter>([&] { (void)analyze(mine<double>(1), mine<Algebraic>(2), {.valences = {3}}); },
                                  {"mine", "exact numbers", "same masks"});
-  EXPECT_NE(analyze(mine_at_darts<double>(2), mine_at_darts<Algebraic>(2), {.valences = {4}}).json(), "");
-  expect_error<InvalidParameter>(
-      [&] { (void)analyze(mine_at_darts<double>(2), mine_at_darts<Algebraic>(3), {.valences = {4}}); },
-      {"mine", "exact numbers", "same masks"});
   expect_error<InvalidParameter>([&] { (void)analyze(mine<double>(1), Scheme<Algebraic>{}, {.valences = {3}}); },
                                  {"steps"});
   expect_error<InvalidParameter>([&] { (void)analyze("loop", {.valences = {}}); }, {"valences"});

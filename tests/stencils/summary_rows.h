@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Rows of a report's summary beside the verdicts that they sum up.
+// Comparison of the rows of a report's summary with the verdicts that they summarise.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace sublimit::testing {
 
-/// Adds what is said to hold at valences like "3, 8-12". A valence that has a verdict already is a failure.
+/// Adds a verdict at valences like "3, 8-12". Fails if a valence has a verdict already.
 inline void add_valences(std::map<int, std::string>& verdicts, const std::string& valences,
                          const std::string& verdict) {
   static const std::regex range(R"((\d+)(?:-(\d+))?)");
@@ -22,7 +22,7 @@ inline void add_valences(std::map<int, std::string>& verdicts, const std::string
   }
 }
 
-/// What a row says of "C^1" or "C^0", by valence.
+/// Returns the verdicts of a row on "C^1" or "C^0", by valence.
 inline std::map<int, std::string> verdicts_of_row(const nlohmann::ordered_json& row, const std::string& continuity) {
   std::map<int, std::string> verdicts;
   if (row["extraordinary"] == continuity) add_valences(verdicts, row["valences"], row["extraordinary_verdict"]);
@@ -35,7 +35,7 @@ inline std::map<int, std::string> verdicts_of_row(const nlohmann::ordered_json& 
   return verdicts;
 }
 
-/// What a scheme's neighbourhoods say of a property, by valence; with no verdict on it: unknown.
+/// Returns the verdicts of a scheme's neighbourhoods on a property, by valence; "unknown" without a verdict.
 inline std::map<int, std::string> verdicts_of_scheme(const nlohmann::ordered_json& scheme,
                                                      const std::string& property) {
   std::map<int, std::string> verdicts;
@@ -48,7 +48,7 @@ inline std::map<int, std::string> verdicts_of_scheme(const nlohmann::ordered_jso
   return verdicts;
 }
 
-/// Every row of a report gives each verdict to the valences that have it, and to no others.
+/// Expects that every row of a report gives each verdict for exactly the valences that have it.
 inline void expect_rows_name_their_valences(const nlohmann::ordered_json& report) {
   ASSERT_EQ(report["summary"].size(), report["schemes"].size());
   ASSERT_GT(report["summary"].size(), 0u);

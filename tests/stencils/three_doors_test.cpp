@@ -551,7 +551,7 @@ TEST_F(ThreeDoors, RefuseNumbersOutOfTheirRange) {
        invalid_parameter,
        [&] { (void)closest(surface, point, {.nearest = 0}); },
        by_program({"closest", "--points", "points.csv", "--nearest", "0", "-o", "out.csv"}),
-       "surface.closest([[2, 0, 0]], count=0)",
+       "surface.closest([[2, 0, 0]], nearest=0)",
        {on_the_line("--nearest 0: it should be a whole number of faces, 1 or more")}},
       {"a negative radius",
        invalid_parameter,

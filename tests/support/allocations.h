@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What a program allocates, counted below operator new, so that Eigen's and C's count as well. A program counts if it
-// calls one of these. Under sanitizers, which have allocators of their own, and elsewhere than with glibc, nothing is
-// counted.
+// Counting the allocations of a program below operator new, so that those of Eigen and C are included. A
+// program that calls one of these functions counts. Nothing is counted under sanitizers, which have their own
+// allocators, and with other C libraries than glibc.
 #include <cstdint>
 
 namespace sublimit::testing {
 
-/// Whether this program counts.
+/// Returns true if this program counts allocations.
 bool allocations_are_counted();
-/// Of this thread, so far.
+/// Returns the number of allocations of this thread so far.
 std::int64_t allocations();
-/// What they asked for, together: no rounding of the allocator's, which depends on what was freed before.
+/// Returns the bytes that they requested in all, without the allocator's rounding, which depends on freed
+/// blocks.
 std::int64_t allocated_bytes();
 
 }  // namespace sublimit::testing

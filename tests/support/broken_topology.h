@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What makes half-edge arrays a mesh.
+// Invariants of half-edge arrays.
 #include <string>
 
 #include "sublimit/mesh/topology.h"
 
 namespace sublimit::testing {
 
-/// What is wrong with a topology; empty if all holds: next and prev, twins, edges and their numbers, fans.
+/// Returns the first violated invariant of a topology (next and prev, twins, edges and their numbers, fans);
+/// empty if all hold.
 std::string broken(const Topology& topology);
 
-/// Vertices - edges + faces, isolated vertices left out.
+/// Returns vertices - edges + faces, without isolated vertices.
 Index euler_characteristic(const Topology& topology);
 
-/// Half-edges without twin.
+/// Returns the number of half-edges without a twin.
 Index num_borders(const Topology& topology);
 
 }  // namespace sublimit::testing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Limits without eigenvectors: the faces around a vertex, refined again and again in 256-bit floats.
+// Limits without eigenvectors, by repeated refinement of the faces around a vertex in 256-bit floats.
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/precise_schemes.h"
@@ -9,13 +9,13 @@ namespace sublimit::testing {
 
 using PrecisePoints = Eigen::Matrix<Precise, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The ring around one vertex after many steps: part of the refined mesh and its points.
+/// The ring around a vertex after many steps: part of the refined mesh and its points.
 struct RefinedRing {
   Level level;           ///< topology of the part; the vertex is `vertex`
   PrecisePoints points;  ///< offsets from `position`
-  Eigen::Matrix<Precise, 1, 3> position = Eigen::Matrix<Precise, 1, 3>::Zero();  ///< of the vertex
+  Eigen::Matrix<Precise, 1, 3> position = Eigen::Matrix<Precise, 1, 3>::Zero();  ///< position of the vertex
   Vertex vertex{0};
-  std::vector<HalfEdge> corners;  ///< of the vertex in the part, fan by fan, in the order of those of the control mesh
+  std::vector<HalfEdge> corners;  ///< corners at the vertex, fan by fan, in the order of the control mesh
 };
 
 /// Refines the faces around `v` of `level`. Masks come from the scheme in 256-bit floats; the topology of

@@ -13,15 +13,16 @@ namespace sublimit::testing {
 
 enum class CgalScheme { bilinear, catmull_clark, loop, doo_sabin, sqrt3 };
 
-/// The scheme that stands for ours of this name, if there is one.
+/// Returns CGAL's scheme that corresponds to ours of this name; absent if there is none.
 std::optional<CgalScheme> cgal_scheme(const std::string& name);
 
-/// The mesh after `levels` steps, all in one call: sqrt(3) counts levels from 0 in every call.
+/// Returns the mesh after `levels` steps, made in one call, since CGAL's sqrt(3) counts levels from 0 in each
+/// call.
 /// @throws std::runtime_error  a face that CGAL does not take
 PeerMesh cgal_refine(const Mesh& mesh, CgalScheme scheme, int levels);
 
-/// For benchmarks: CGAL's own mesh, built, and the call that refines it in place; to be made once. It returns the
-/// number of vertices; the mesh lives as long as the function.
+/// For benchmarks: builds CGAL's mesh, and returns a function that refines it in place. The function can be
+/// called once, returns the number of vertices, and owns the mesh.
 std::function<std::size_t()> cgal_run(const Mesh& mesh, CgalScheme scheme, int levels);
 
 }  // namespace sublimit::testing

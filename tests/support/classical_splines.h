@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// B-splines as the textbooks have them, each algorithm on its own and none of them in the library: what its one
-// blossom is compared with. Knots are t_0 .. t_{n+p}, k is the span [t_k, t_{k+1}] of the piece.
+// Textbook algorithms for B-splines, independent of the library, which uses blossoms: references for its tests.
+// Knots are t_0 .. t_{n+p}; k is the span [t_k, t_{k+1}] of a piece.
 #include <random>
 #include <span>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace sublimit::testing {
 
-/// N_i of degree q by the recursion of Cox and de Boor (1972), 0/0 = 0.
+/// Returns N_i of degree q by the recursion of Cox and de Boor (1972), 0/0 = 0.
 template <class T>
 T cox_de_boor(std::span<const T> t, Index k, Index i, Index q, const T& x) {
   if (i > k || i + q < k) return T(0);
@@ -22,7 +22,7 @@ T cox_de_boor(std::span<const T> t, Index k, Index i, Index q, const T& x) {
   return sum;
 }
 
-/// The point of a piece from its control points P_{k-p} .. P_k, by de Boor's corner cutting (1972).
+/// Returns the point of a piece from its control points P_{k-p} .. P_k, by de Boor's corner cutting (1972).
 template <class T>
 T de_boor(std::span<const T> t, Index k, std::vector<T> points, const T& x) {
   const Index p = static_cast<Index>(points.size()) - 1;
@@ -35,7 +35,7 @@ T de_boor(std::span<const T> t, Index k, std::vector<T> points, const T& x) {
   return points[p];
 }
 
-/// Control points after one more knot s in [t_k, t_{k+1}) (Boehm 1980).
+/// Returns the control points after insertion of a knot s in [t_k, t_{k+1}) (Boehm 1980).
 template <class T>
 std::vector<T> boehm(std::span<const T> t, Index p, Index k, const std::vector<T>& points, const T& s) {
   std::vector<T> result;
@@ -49,7 +49,7 @@ std::vector<T> boehm(std::span<const T> t, Index p, Index k, const std::vector<T
   return result;
 }
 
-/// Discrete B-spline alpha_i of degree r at tau_j (Cohen, Lyche, Riesenfeld 1980), 0/0 = 0.
+/// Returns the discrete B-spline alpha_i of degree r at tau_j (Cohen, Lyche, Riesenfeld 1980), 0/0 = 0.
 template <class T>
 T oslo(std::span<const T> t, std::span<const T> tau, Index i, Index r, Index j) {
   if (i < 0 || i + r + 1 >= std::ssize(t)) return T(0);
@@ -61,8 +61,8 @@ T oslo(std::span<const T> t, std::span<const T> tau, Index i, Index r, Index j) 
   return sum;
 }
 
-/// Row of a derivative by differences of control points: D_i = p (P_{i+1} - P_i) / (t_{i+p+1} - t_{i+1}), a curve over
-/// the knots without the first and the last (0 where the denominator is).
+/// Returns the row of a derivative by differences of control points: D_i = p (P_{i+1} - P_i) / (t_{i+p+1} -
+/// t_{i+1}), or 0 if the denominator is 0; a curve over the knots without the first and the last one.
 template <class T>
 std::vector<T> hodograph_row(std::span<const T> t, Index p, Index k, int order, const T& x) {
   const Index n = static_cast<Index>(t.size()) - p - 1;
@@ -83,14 +83,14 @@ std::vector<T> hodograph_row(std::span<const T> t, Index p, Index k, int order, 
   return row;
 }
 
-/// Coordinates from -1 to 1.
+/// Returns points with random coordinates from -1 to 1.
 inline Points random_points(std::mt19937& random, Index rows, Index columns) {
   std::uniform_real_distribution<double> coordinate(-1, 1);
   return Points::NullaryExpr(rows, columns, [&] { return coordinate(random); });
 }
 
-/// Knots of some faces, with gaps that are multiples of 1/8 up to 2: every multiplicity up to degree + 1 occurs, at
-/// ends and inside; closed ones with any number of points.
+/// Returns random knots with distances that are multiples of 1/8 up to 2. All multiplicities up to degree + 1
+/// occur, at ends and inside; closed ones have any number of points.
 template <class T>
 Knots<T> random_knots(std::mt19937& random, int degree, bool is_closed = false) {
   const auto draw = [&](int least, int most) { return std::uniform_int_distribution<int>(least, most)(random); };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Our levels against OpenSubdiv's, vertex by vertex through provenance (numbers of vertices and edges differ), face by
-// face.
+// Comparison of levels with OpenSubdiv's: faces in order, vertices matched by their parents, since the two
+// libraries number vertices and edges differently.
 #include <string>
 #include <vector>
 
@@ -13,14 +13,14 @@ namespace sublimit::testing {
 
 struct Comparison {
   std::string mismatch;           ///< what differs in connectivity or tags, empty if nothing does
-  double error = 0;               ///< largest distance of positions, all levels, over the bounding box
+  double error = 0;               ///< largest distance of positions on all levels, relative to the bounding box
   std::vector<Index> vertex_map;  ///< reference vertex of every vertex of the last level
 };
 
-/// Options of the mesh's own tags; scheme "loop-warren" has no reference.
+/// Compares levels under the options of the mesh's tags. The scheme "loop-warren" has no reference.
 Comparison compare_with_opensubdiv(const Mesh& mesh, const std::string& scheme, int levels);
 
-/// The scheme with what the mesh's tags ask of it.
+/// Returns the scheme with the options that the mesh's tags select.
 Scheme<double> scheme_for(const Mesh& mesh, const std::string& scheme);
 
 }  // namespace sublimit::testing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Random curves and what surfaces of them are at their own parameters, for tests of constructions.
+// Random curves, and values of surfaces at their own parameters, for tests of constructions.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@
 
 namespace sublimit::testing {
 
-/// Clamped knots on [0, 1] with some inner ones, simple or more.
+/// Returns clamped knots on [0, 1] with some inner ones, simple or multiple.
 inline Knots<double> unit_knots(std::mt19937& random, int degree) {
   std::vector<double> inner;
   for (int i = 1; i < 8; ++i)
@@ -34,7 +34,7 @@ inline CurveNet unit_curve(std::mt19937& random, int degree) {
   return {std::move(knots), std::move(points)};
 }
 
-/// A circle of a radius about (x, 0), in quarters, from angle -90 degrees on.
+/// Returns quarters of a circle about (x, 0), from the angle -90 degrees on.
 inline CurveNet circle_arcs(double x, double radius, int quarters) {
   std::vector<double> knots{0};
   for (int i = 0; i <= quarters; ++i) knots.insert(knots.end(), 2, i);
@@ -47,7 +47,7 @@ inline CurveNet circle_arcs(double x, double radius, int quarters) {
   return {Knots<double>::open(2, 2 * quarters + 1, knots), columns, Coordinates::homogeneous};
 }
 
-/// A point or derivative of the columns in 256 bits, by the recursion of Cox and de Boor.
+/// Returns a point or derivative of the columns, computed in 256 bits by the recursion of Cox and de Boor.
 inline Eigen::RowVectorXd truth(const CurveNet& curve, double t, int order = 0) {
   const Index p = curve.knots.degree();
   const Index k = curve.knots.span(curve.knots.place(t).face);
@@ -62,7 +62,8 @@ inline Eigen::RowVectorXd truth(const CurveNet& curve, double t, int order = 0) 
   return value;
 }
 
-/// A patch at its own parameters, derivatives per unit of these: x, du, dv, duu, duv, dvv by rows, and its normal.
+/// Values of a patch at its own parameters, with derivatives per unit of these: rows x, du, dv, duu, duv, dvv;
+/// normal.
 struct OwnValues {
   Eigen::Matrix<double, 6, 3> x;
   Eigen::RowVector3d normal;
@@ -82,7 +83,7 @@ inline OwnValues own_values(const SplineNet& net, double u, double v) {
   return own_values(*net.surface, net.columns, net.coordinates, u, v);
 }
 
-/// Gauss and mean curvature with respect to du x dv.
+/// Returns Gauss and mean curvature with respect to du x dv.
 inline std::pair<double, double> curvatures(const OwnValues& at) {
   const Eigen::RowVector3d u = at.x.row(1), v = at.x.row(2), n = u.cross(v).normalized();
   const double E = u.dot(u), F = u.dot(v), G = v.dot(v);
@@ -97,9 +98,9 @@ inline void expect_near(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, doub
   EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance) << a << "\nand\n" << b;
 }
 
-/// Sums of some dozens of terms of size 1 to 10, in another order.
+/// Tolerance of sums of some dozens of terms of size 1 to 10 in another order.
 inline constexpr double sums = 1e-13;
-/// Second derivatives of them, of size 100.
+/// Tolerance of their second derivatives, of size 100.
 inline constexpr double derivative_sums = 1e-11;
 
 }  // namespace sublimit::testing

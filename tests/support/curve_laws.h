@@ -11,16 +11,17 @@ namespace sublimit::testing {
 
 struct CurveLaw {
   std::string name;
-  /// Empty if the scheme obeys, else what is wrong.
+  /// Returns a description of a violation; empty if the scheme obeys the law.
   std::string (*violation)(const CurveScheme<double>& scheme);
 };
 
 const std::vector<CurveLaw>& curve_laws();
 
-/// Names and options: every curve scheme with its default options and with others that change its masks or ends.
+/// Returns names and options: every curve scheme with its default options, and with others that change its
+/// masks or ends.
 std::vector<std::pair<std::string, SchemeOptions>> curve_scheme_names_and_options();
 
-/// The schemes of these.
+/// Returns the schemes with these names and options.
 std::vector<CurveScheme<double>> curve_scheme_variants();
 
 }  // namespace sublimit::testing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Limits of curves by refinement alone, in 256 bits: a window of points around a place is refined hundreds of times,
-// and differences of its points are the derivatives.
+// Limits of curves by refinement only, in 256 bits: a window of points around a place is refined hundreds of
+// times, and derivatives are differences of its points.
 #include <map>
 
 #include "sublimit/curves/detail/curve_levels.h"
@@ -14,14 +14,16 @@ struct CurveTruth {
   Precise position, first, second;
 };
 
-/// A curve of one coordinate, of a scheme without derivatives among its unknowns.
+/// A curve with one coordinate, under a scheme that is not a Hermite scheme.
 class CurveBruteForce {
  public:
-  /// @param stationary  masks are the same at every level: they are made once
+  /// @param stationary  true: masks are equal at every level, and so computed once
   CurveBruteForce(CurveScheme<Precise> scheme, Eigen::VectorXd values, bool closed, bool stationary = true);
 
-  /// @param position  in half edges from the start of the limit (CurveLayout); what has too many digits for a double
-  ///                  is the sum of two of them. Derivatives are those from behind, at the end those from before.
+  /// Returns the limit at `position` + `more`.
+  /// @param position  in half edges from the start of the limit (CurveLayout); a position with too many digits
+  ///                  for one double is given as a sum of two. Derivatives are those from the right, at the end
+  ///                  from the left
   CurveTruth at(double position, double more = 0);
 
  private:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How far refined data are from a surface that is known, and from themselves: the measure of schemes of which nothing
-// is proved.
+// Deviations of refined data from a known surface, and from each other, to assess schemes without proofs.
 #include <Eigen/Core>
 
 #include <functional>
@@ -13,7 +12,7 @@
 
 namespace sublimit::testing {
 
-/// The surface f = 0 near which |gradient| > 0; normals along the gradient.
+/// The surface f = 0, near which |gradient| > 0. Normals have the direction of the gradient.
 struct ImplicitSurface {
   struct Jet {
     double value = 0;
@@ -23,33 +22,34 @@ struct ImplicitSurface {
   std::function<Jet(const Eigen::Vector3d&)> at;
 };
 
-/// Everything of second order at the surface's point nearest to x, by Newton's method from x: for x near to it.
+/// Returns the point of the surface nearest to x, with its second-order data, by Newton's method from x. x must
+/// be near the surface.
 /// @throws InvalidParameter  no convergence
 SurfacePoint nearest_point(const ImplicitSurface& surface, const Eigen::Vector3d& x);
 
-/// The largest and the root mean square of something.
+/// Largest value and root mean square.
 struct Spread {
   double largest = 0, mean_square_root = 0;
 };
-/// One level; of all vertices, in lengths, radians and 1/lengths.
+/// Deviations of a level, over all its vertices, in lengths, radians and 1/lengths.
 struct Deviation {
   int level = 0;
   Index vertices = 0;
   double edge = 0;    ///< longest edge
   Spread position;    ///< distance from the surface
   Spread normal;      ///< angle to the normal at the nearest point
-  Spread k1, k2;      ///< of sorted curvatures: the larger, the smaller
-  Spread triangle;    ///< between the normal of a triangle and the data normals of its corners
-  Spread neighbours;  ///< between the normals of the triangles of an edge
-  Spread bend;        ///< `neighbours` by the distance between the centroids: grows like 1/edge where normals jump
+  Spread k1, k2;      ///< errors of the larger and the smaller principal curvature
+  Spread triangle;    ///< angle between the normal of a triangle and the given normals of its corners
+  Spread neighbours;  ///< angle between the normals of neighbouring triangles
+  Spread bend;        ///< `neighbours` over the distance of centroids: grows like 1/edge if normals jump
 };
 
-/// Data of level 0 to `levels` against `surface`.
-/// @throws what the scheme throws; InvalidParameter  points too far from the surface
+/// Returns the deviations of the data of levels 0 to `levels` from `surface`.
+/// @throws InvalidParameter  points too far from the surface; and the errors of the scheme
 std::vector<Deviation> deviations(const GeometricScheme<CurvatureMesh>& scheme, const CurvatureMesh& mesh, int levels,
                                   const ImplicitSurface& surface);
 
-/// Exact data of the surface at the points of it nearest to a mesh's vertices: targets to start from.
+/// Returns the exact data of the surface at its points nearest to a mesh's vertices, as targets.
 std::vector<VertexTarget> targets_on(const ImplicitSurface& surface, const Mesh& mesh);
 
 }  // namespace sublimit::testing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Face-varying channels for meshes that the tests make, and channels beside OpenSubdiv's.
+// Face-varying channels for test meshes, and their comparison with OpenSubdiv's.
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,17 +11,19 @@ namespace sublimit::testing {
 
 using Seams = std::vector<std::pair<Index, Index>>;  ///< edges, by their vertices in either order
 
-/// The mesh with a channel that is continuous across all edges but the seams. Values are random, two columns.
-/// @param joined  vertices at which all corners have one value in spite of seams
+/// Returns the mesh with a channel of random values in two columns that is continuous across all edges except
+/// seams.
+/// @param joined  vertices at which all corners have one value despite seams
 Mesh with_channel(Mesh mesh, const Seams& seams, const std::vector<Index>& joined = {}, unsigned seed = 1);
 
-/// The same, with every edge a seam with this probability, and some vertices joined.
+/// Returns the mesh with a channel in which each edge is a seam with this probability, and some vertices are
+/// joined.
 Mesh with_random_channel(Mesh mesh, double probability, unsigned seed = 1);
 
-/// The mesh with other indices where two values take turns twice around a vertex (a b a b): then each run of faces has
-/// a value of its own, with the same numbers. Of such values OpenSubdiv 3.5 takes a for one value and every b for
-/// another (its search for values that it met before looks at the first of two only), so that refined values depend on
-/// the face it starts from.
+/// Returns the mesh with new indices where two values alternate around a vertex (a b a b): each run of faces
+/// gets its own value, with equal numbers. OpenSubdiv 3.5 treats such a as one value, but each b as a different
+/// one (its search for values that occurred before compares with the first value only), so that its refined
+/// values depend on the face that it starts from.
 Mesh without_turns(Mesh mesh);
 
 inline constexpr FaceVaryingInterpolation all_interpolations[] = {
@@ -31,10 +33,10 @@ inline constexpr FaceVaryingInterpolation all_interpolations[] = {
 const char* name(FaceVaryingInterpolation interpolation);
 
 struct ChannelComparison {
-  std::string mismatch;  ///< what differs in which corners share a value, empty if nothing does
+  std::string mismatch;  ///< difference in which corners share a value; empty if there is none
   double error = 0;      ///< largest difference of values, all levels, over their range
 };
-/// Our levels of the mesh's first channel against OpenSubdiv's, corner by corner, under the mesh's own tags.
+/// Compares levels of the mesh's first channel with OpenSubdiv's, corner by corner, under the mesh's tags.
 ChannelComparison compare_channel_with_opensubdiv(const Mesh& mesh, const std::string& scheme,
                                                   FaceVaryingInterpolation interpolation, int levels);
 

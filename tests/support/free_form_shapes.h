@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Surfaces whose closed form is known, as B-splines and as the text of an OBJ file, made from published data.
+// Surfaces with a known closed form, or from published data, as B-splines and as free-form shapes of a file.
 #include <string>
 #include <vector>
 
@@ -15,19 +15,21 @@ struct RationalShape {
   Points columns;
 };
 
-/// |x| = 1, biquadratic: the circle of nine points times half a circle (Piegl, Tiller 1997). Outwards is du x dv.
+/// Returns the unit sphere, biquadratic: the circle of nine points times half a circle (Piegl, Tiller 1997). du
+/// x dv points outwards.
 RationalShape unit_sphere();
-/// Radii 3 and 1 about z, biquadratic.
+/// Returns a torus with radii 3 and 1 about the z axis, biquadratic.
 RationalShape torus();
-/// Of radius 1/2 along x from 0 to 4, degrees 2 and 1: a swept circle.
+/// Returns a pipe of radius 1/2 along x from 0 to 4, degrees 2 and 1.
 RationalShape pipe();
-/// One degree more in both directions.
+/// Returns the shape with degrees elevated by one.
 RationalShape elevated(const RationalShape& shape);
 
-/// As `rat bspline` surfaces of a file, each with vertices of its own.
+/// Returns the shapes as `rat bspline` surfaces of a file, each with its own vertices.
 FreeForm free_form_of(const std::vector<RationalShape>& shapes);
 
-/// M. Newell's teapot (1975) in the 32 bicubic Bezier patches that GLUT draws: rim, body, lid, bottom, handle, spout.
+/// Returns M. Newell's teapot (1975) as the 32 bicubic Bezier patches of GLUT: rim, body, lid, bottom, handle,
+/// spout.
 FreeForm teapot();
 
 }  // namespace sublimit::testing

@@ -4,7 +4,7 @@
 
 namespace sublimit::testing {
 
-/// Whether this is the full sweep (ctest -L full), which takes more of the same cases.
+/// Returns true in the full sweep (ctest -L full), which runs more cases of the same kinds.
 inline bool full_sweep() { return std::getenv("SUBLIMIT_FULL") != nullptr; }
 
 }  // namespace sublimit::testing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Meshes that have everything at once: irregular vertices and faces side by side, borders, and sharp edges of all kinds
-// that meet, end, and differ from edge to edge. Manifold; the same seed, the same mesh.
+// Random manifold meshes with all difficulties at once: adjacent irregular vertices and faces, borders, and
+// sharp edges of all kinds that meet, end, and vary from edge to edge. Equal seeds give equal meshes.
 #include "support/meshes.h"
 
 namespace sublimit::testing {
@@ -13,9 +13,9 @@ struct Hardness {
       false;  ///< sharpness 0.3 to 5.7 in paths, neighbours differing, with darts; some infinite; sharp vertices
 };
 
-/// Valences and corners of faces from 3 to 12 (borders: vertices of one face and more).
+/// Returns a mesh of polygons with valences and face sizes from 3 to 12; border vertices have one face or more.
 Mesh hard_polygons(unsigned seed, const Hardness& hardness = {});
-/// Triangles, valences from 3 to 12.
+/// Returns a mesh of triangles with valences from 3 to 12.
 Mesh hard_triangles(unsigned seed, const Hardness& hardness = {});
 
 }  // namespace sublimit::testing

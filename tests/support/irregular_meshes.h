@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Closed meshes without symmetry: all valences and face sizes, in all neighbourhoods.
+// Meshes without symmetry, in which many valences and face sizes occur in all combinations.
 #include <algorithm>
 #include <ostream>
 #include <string>
@@ -12,19 +12,20 @@ namespace sublimit::testing {
 
 Mesh bipyramid(Index n);  ///< triangles; two vertices of valence n, n of valence 4
 
-/// Triangles, of which `flips` random edges have been flipped where valences stay from 3 to `most` and no edge is
+/// Returns the mesh with `flips` random edges flipped, as far as valences stay from 3 to `most` and no edge is
 /// doubled.
 Mesh flipped(const Mesh& triangles, int flips, unsigned seed = 1, Index most = 10);
 
-/// Up to `edges` random edges removed, their faces made one, where valences stay at least 3, faces get no more than
-/// `most` corners, and no other vertex is common to both.
+/// Returns the mesh with up to `edges` random edges removed and their faces joined, as far as valences stay at
+/// least 3, faces get at most `most` corners, and the two faces have no further common vertex.
 Mesh merged(const Mesh& mesh, int edges, unsigned seed = 1, Index most = 10);
 
-/// What schemes are compared with other libraries on: every vertex moved at random, valences (and faces of polygon
-/// meshes) of 3 to 10 in all combinations, one valence of 60, regular places too. The schemes' names are left empty.
+/// Returns meshes for comparisons with other libraries: vertices are moved at random; valences (and face sizes
+/// of polygon meshes) of 3 to 10 in all combinations, one valence of 60, regular regions. `schemes` is left
+/// empty.
 std::vector<NamedMesh> closed_triangle_meshes();
 std::vector<NamedMesh> closed_polygon_meshes();  ///< triangles, quads, polygons
-/// With borders, some of them with vertices of a single face.
+/// Returns such meshes with borders, some of them with vertices of a single face.
 std::vector<NamedMesh> open_triangle_meshes();
 std::vector<NamedMesh> open_polygon_meshes();
 
@@ -35,9 +36,9 @@ struct SchemeOnMesh {
     return out << s.scheme << " on " << s.name;
   }
 };
-/// Every one of the schemes on every one of the meshes.
+/// Returns every combination of a scheme and a mesh.
 std::vector<SchemeOnMesh> schemes_on(const std::vector<std::string>& schemes, const std::vector<NamedMesh>& meshes);
-/// Of a parameterised test: modified_butterfly_torus.
+/// Returns the name of a parameterised test: modified_butterfly_torus.
 inline constexpr auto name_of_test = [](const auto& tested) {
   std::string name = tested.param.scheme + "_" + tested.param.name;
   std::replace(name.begin(), name.end(), '-', '_');

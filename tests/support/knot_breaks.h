@@ -5,15 +5,15 @@
 
 namespace sublimit::testing {
 
-/// Break points from 0 on, one more than intervals.
+/// Returns the break points from 0 on, one more than intervals.
 inline std::vector<double> breaks_of(const std::vector<double>& lengths) {
   std::vector<double> breaks{0};
   for (const double d : lengths) breaks.push_back(breaks.back() + d);
   return breaks;
 }
 
-/// The same with a new one in each interval.
-/// @param at  its distance from where the interval begins
+/// Returns the break points with a new one in each interval.
+/// @param at  distance of each new break point from the start of its interval
 inline std::vector<double> finer_breaks(const std::vector<double>& lengths, const std::vector<double>& at) {
   std::vector<double> fine;
   const std::vector<double> breaks = breaks_of(lengths);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The system of points on the limit surface: a row for each control vertex.
+// The linear system of interpolation by the limit surface, with a row for each control vertex.
 #include <string>
 
 #include "sublimit/core/types.h"
@@ -8,7 +8,7 @@
 
 namespace sublimit::testing {
 
-/// L of level 0: x_inf = L x.
+/// Returns L of level 0: x_inf = L x.
 SparseMatrix limit_system(const std::string& scheme, const Mesh& mesh);
 
 }  // namespace sublimit::testing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Limits of triangles that two steps of sqrt3 cut in nine, at their corners, their middles and the thirds of their
-// sides: vertices of levels 0, 1 and 2, whose limit masks are exact.
+// Limits under sqrt3 at the corners, middles and thirds of sides of triangles, which two steps cut into nine:
+// these are vertices of levels 0, 1 and 2, whose limit masks are exact.
 #include <algorithm>
 #include <string>
 
@@ -11,8 +11,8 @@
 
 namespace sublimit::testing {
 
-/// The first place of some triangle where the surface's stencil is not L_k P_k of that vertex; empty if there is none.
-/// Thirds of a side are asked for on both sides of it.
+/// Returns the first place where the surface's stencil differs from L_k P_k of the vertex; empty if there is
+/// none. Thirds of a side are evaluated in both of its triangles.
 inline std::string wrong_at_thirds(const LimitMap& surface, const Scheme<double>& scheme) {
   const Level one = next_level(scheme, surface.level()), two = next_level(scheme, one);
   const SparseMatrix P = two.S * one.S;

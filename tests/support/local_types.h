@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Where laws look at a scheme: its centres, alone among regular points.
+// Types of isolated centres among regular points, at which laws are checked.
 #include <vector>
 
 #include "sublimit/neighborhood/local_type.h"
@@ -8,13 +8,13 @@
 
 namespace sublimit::testing {
 
-/// An interior vertex, or a face in dual schemes.
+/// Returns the type of an interior vertex, or of a face in dual schemes.
 inline LocalType smooth_type(const Scheme<double>& scheme, int n) {
   return {.kind = scheme.is_dual() ? Centre::Kind::face : Centre::Kind::vertex, .faces = n};
 }
 
-/// Border vertices of m faces in every phase, smooth ones and corners (not where dual schemes round them), and border
-/// edges.
+/// Returns the types of border vertices of m faces in every phase, smooth ones and corners (except where dual
+/// schemes round them), and of border edges.
 inline std::vector<LocalType> border_types(const Scheme<double>& scheme, int m) {
   std::vector<LocalType> types;
   for (int phase = 0; phase < scheme.period; ++phase)

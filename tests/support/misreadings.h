@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Rules of well-known schemes as they are sometimes misprinted, or as their words can be misread, each a scheme of its
-// own: what becomes of them is for tests to say (lib/errata_test.cpp). The rules in the registry are those of the
-// papers.
+// Known misprints and misreadings of the rules of well-known schemes, each as a scheme of its own. Tests
+// (lib/errata_test.cpp) show their consequences. The rules in the registry are those of the papers.
 #include "sublimit/schemes/schemes.h"
 
 namespace sublimit::testing::misread {
@@ -23,7 +22,7 @@ Scheme<T> doo_sabin_halfway() {
   });
 }
 
-/// Doo-Sabin's weights with a sum over i = 0 ... n: corner 0 comes twice.
+/// Doo-Sabin's weights with a sum over i = 0 ... n, in which corner 0 occurs twice.
 template <class T>
 Scheme<T> doo_sabin_with_one_term_more() {
   return doo_sabin_with<T>("one-term-more", "", [](const FaceSite<T>& f, int j) {
@@ -43,7 +42,7 @@ Scheme<T> doo_sabin_mean_of_four() {
   return scheme;
 }
 
-/// Two mid-edge steps as one step: a corner and its neighbours in the face.
+/// Two mid-edge steps as one step, from a corner and its neighbours in the face.
 template <class T>
 Scheme<T> doo_sabin_of_three_corners() {
   return doo_sabin_with<T>("three-corners", "", [](const FaceSite<T>& f, int j) {
@@ -51,8 +50,8 @@ Scheme<T> doo_sabin_of_three_corners() {
   });
 }
 
-/// "Points of edges at extraordinary places are joined with the centroids of the faces", read as a rule for edges of
-/// faces that are not quads: half of the way from the midpoint to the centroid.
+/// "Points of edges at extraordinary places are joined with the centroids of the faces", misread as a rule for
+/// edges of faces that are not quads: the point halfway from the midpoint to the centroid.
 template <class T>
 Scheme<T> mid_edge_with_centroids() {
   return mid_edge_with<T>("mid-edge-with-centroids", "", [](const EdgeSite<T>& e) {
@@ -64,7 +63,7 @@ Scheme<T> mid_edge_with_centroids() {
   });
 }
 
-/// Catmull-Clark's new vertex (F + 2 R + (n - 3) v)/n, R the mean of `edge(ring, i)` over its edges.
+/// Catmull-Clark's new vertex (F + 2 R + (n - 3) v)/n, where R is the mean of `edge(ring, i)` over its edges.
 template <class T, class Edge>
 Scheme<T> catmull_clark_with(const Edge& edge) {
   Scheme<T> scheme = *find_scheme<T>("catmull-clark");
@@ -87,7 +86,7 @@ Scheme<T> catmull_clark_with_old_midpoints() {
   return catmull_clark_with<T>([](const Ring<T>& v, int i) { return (v.center() + v.neighbor(i)) / 2; });
 }
 
-/// Loop's beta, the weight of the whole ring, divided by the valence once more.
+/// Loop's weight of one neighbour taken as that of the whole ring, so that it is divided by the valence twice.
 template <class T>
 Scheme<T> loop_divided_twice() {
   return loop_with<T>("loop-divided-twice", "", [](const Ring<T>& v) {
@@ -96,7 +95,7 @@ Scheme<T> loop_divided_twice() {
   });
 }
 
-/// The modified butterfly's rule for valences from 5 on at all vertices, those of valence 6 too.
+/// The modified butterfly's rule for valences from 5 on, used also at vertices of valence 6.
 template <class T>
 Scheme<T> modified_butterfly_with_one_formula() {
   Scheme<T> scheme = *find_scheme<T>("modified-butterfly");
@@ -117,8 +116,8 @@ Scheme<T> modified_butterfly_with_one_formula() {
   return scheme;
 }
 
-/// Kobbelt's scheme, tension 1, with face points made in one direction only (0 or 1); `r` is the weight of diagonals in
-/// the virtual point. On borders anything: for neighbourhoods without.
+/// Kobbelt's scheme with tension 1 and face points computed in one direction only (0 or 1); `r` is the weight
+/// of diagonals in the virtual point. Only for neighbourhoods without borders, where its rules have no meaning.
 template <class T>
 Scheme<T> kobbelt_one_way(int way, Ratio r) {
   Scheme<T> scheme = *find_scheme<T>("kobbelt");

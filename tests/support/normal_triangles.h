@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Points with normals for triangle patches: on spheres, and at random near a plane; with the laws that every such patch
-// obeys.
+// Points with normals for triangle patches, on spheres and at random near a plane, and the laws that every such
+// patch obeys.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -30,8 +30,8 @@ struct CornerData {
 template <class T>
 using TriangleData = std::array<CornerData<T>, 3>;
 
-/// Corners of patches whose coordinates are about 1, with normals within some 40 degrees of z. Four a set: triangles
-/// (0, 1, 2) and (0, 3, 1) have a common edge.
+/// Returns four corners with coordinates of about 1 and normals within some 40 degrees of z. Triangles (0, 1,
+/// 2) and (0, 3, 1) share an edge.
 inline std::array<CornerData<double>, 4> random_corners(unsigned seed) {
   std::mt19937 random(seed);
   const auto number = [&](double size) { return size * (std::ldexp(double(random()), -31) - 1); };
@@ -54,12 +54,13 @@ TriangleData<T> triangle(const std::array<CornerData<double>, 4>& corners, std::
   return {corners[which[0]].cast<T>(), corners[which[1]].cast<T>(), corners[which[2]].cast<T>()};
 }
 
-/// Three points of the unit sphere, which are their own normals.
+/// Returns three points of the unit sphere, with themselves as normals.
 inline TriangleData<double> on_sphere(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   return {CornerData<double>{a, a}, {b, b}, {c, c}};
 }
 
-/// The largest distance of a patch from the unit sphere, over a grid of 60 x 60 places (which has the centre).
+/// Returns the largest distance of a patch from the unit sphere over a grid of 60 x 60 places, which contains
+/// the centre.
 template <template <class> class Patch>
 double distance_from_sphere(const TriangleData<double>& data) {
   const Patch<double> patch = patch_of<Patch>(data);
@@ -70,7 +71,7 @@ double distance_from_sphere(const TriangleData<double>& data) {
   return most;
 }
 
-/// Corner i of a patch; the place on the side from corner i to the next one at s.
+/// Returns the place at s on the side from corner i to the next one; s = 0 is corner i.
 template <class T>
 std::array<T, 2> corner_place(int i) {
   return {T(i == 1), T(i == 2)};
@@ -81,7 +82,8 @@ std::array<T, 2> side_place(int i, const T& s) {
   return {a[0] * (T(1) - s) + b[0] * s, a[1] * (T(1) - s) + b[1] * s};
 }
 
-/// The surface goes through its corners, bitwise, with their normals; its sides are edge cubics.
+/// Expects that the surface interpolates its corners, bitwise, with their normals, and that its sides are edge
+/// cubics.
 template <template <class> class Patch, class T>
 void expect_interpolation(const TriangleData<T>& data, double tolerance) {
   const Patch<T> patch = patch_of<Patch>(data);
@@ -105,7 +107,8 @@ void expect_interpolation(const TriangleData<T>& data, double tolerance) {
   }
 }
 
-/// Two patches that share an edge touch the same planes along it, wherever it is in their triangles.
+/// Expects that two patches with a common edge have the same tangent planes along it, for all positions of the
+/// edge in their triangles.
 template <template <class> class Patch, class T>
 void expect_common_planes(const std::array<CornerData<double>, 4>& corners, double tolerance) {
   for (size_t i = 0; i < 3; ++i)
@@ -128,7 +131,7 @@ void expect_common_planes(const std::array<CornerData<double>, 4>& corners, doub
     }
 }
 
-/// Derivatives are those of the positions, by central differences in 256 bits. `places` inside.
+/// Expects that derivatives agree with central differences of positions in 256 bits, at interior places.
 template <template <class> class Patch>
 void expect_true_derivatives(const TriangleData<Precise>& data, const std::vector<std::array<double, 2>>& places) {
   const Patch<Precise> patch = patch_of<Patch>(data);
@@ -154,8 +157,8 @@ void expect_true_derivatives(const TriangleData<Precise>& data, const std::vecto
   }
 }
 
-/// In double what is in 256 bits.
-/// @param second  of second derivatives
+/// Expects that results in double agree with those in 256 bits.
+/// @param second  tolerance of second derivatives
 template <template <class> class Patch>
 void expect_precise_values(const std::array<CornerData<double>, 4>& corners, double u, double v, double tolerance,
                            double second) {
@@ -178,7 +181,8 @@ void expect_precise_values(const std::array<CornerData<double>, 4>& corners, dou
   expect(found.dvv, truth.dvv, second);
 }
 
-/// Moved, turned and scaled data give the surface moved, turned and scaled; other names of the corners the same one.
+/// Expects that translated, rotated and scaled data give the surface transformed in this way, and that another
+/// order of the corners gives the same surface.
 template <template <class> class Patch>
 void expect_no_preference(const std::array<CornerData<double>, 4>& corners, double tolerance) {
   const TriangleData<double> data = triangle<double>(corners);
@@ -211,7 +215,7 @@ void expect_no_preference(const std::array<CornerData<double>, 4>& corners, doub
     }
 }
 
-/// Data of a plane give the plane.
+/// Expects that data of a plane give the plane.
 template <template <class> class Patch>
 void expect_plane(const std::array<CornerData<double>, 4>& corners) {
   TriangleData<double> data = triangle<double>(corners);

@@ -12,21 +12,22 @@ namespace sublimit::testing {
 
 enum class OpenMeshScheme { loop, sqrt3, modified_butterfly, interpolatory_sqrt3, catmull_clark, midpoint };
 
-/// The scheme that stands for ours of this name, if there is one.
+/// Returns OpenMesh's scheme that corresponds to ours of this name; absent if there is none.
 std::optional<OpenMeshScheme> openmesh_scheme(const std::string& name);
 
-/// Of the vectors through which OpenMesh's Loop subdivider passes positions. `single` is what a mesh has whose traits
-/// change the type of points and nothing else; positions then are rounded to float on the way. All else here is
-/// `twice`.
+/// Precision of the normals of OpenMesh's mesh, the type through which its Loop subdivider passes positions.
+/// `single` is that of a mesh whose traits change only the type of points: positions are then rounded to float
+/// on the way. The other functions here use `twice`.
 enum class OpenMeshNormals { twice, single };
 
-/// The mesh after `levels` steps, all in one call: the sqrt(3) subdividers count levels from 0 in every call.
+/// Returns the mesh after `levels` steps, made in one call, since the sqrt(3) subdividers count levels from 0
+/// in each call.
 /// @throws std::runtime_error  a face that OpenMesh does not take
 PeerMesh openmesh_refine(const Mesh& mesh, OpenMeshScheme scheme, int levels,
                          OpenMeshNormals normals = OpenMeshNormals::twice);
 
-/// For benchmarks: OpenMesh's own mesh, built, and the call that refines it in place; to be made once. It returns the
-/// number of vertices; the mesh lives as long as the function.
+/// For benchmarks: builds OpenMesh's mesh, and returns a function that refines it in place. The function can be
+/// called once, returns the number of vertices, and owns the mesh.
 std::function<std::size_t()> openmesh_run(const Mesh& mesh, OpenMeshScheme scheme, int levels);
 
 }  // namespace sublimit::testing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Points of the limit surface as OpenSubdiv has them, in double: by Far's patches and by Bfr's surfaces. Exact where
-// the patch is regular, and approximate around extraordinary vertices.
+// Points of limit surfaces by OpenSubdiv in double: by Far's patches and by Bfr's surfaces. They are exact in
+// regular patches, and approximate around extraordinary vertices.
 #include <memory>
 #include <optional>
 
@@ -10,29 +10,30 @@
 
 namespace sublimit::testing {
 
-/// A point with its derivatives, per unit of what the library holds to be the parameter.
+/// A point with its derivatives, per unit of the parameter of OpenSubdiv.
 struct ReferencePoint {
   Eigen::Vector3d position, du, dv, duu, duv, dvv;
-  bool regular = false;  ///< of a regular patch, not of an end cap; Bfr: the whole face is one
-  int depth = 0;         ///< of the patch: its side is 2^-depth of the control face's; Far only
+  bool regular = false;  ///< Far: in a regular patch, not an end cap; Bfr: the whole face is regular
+  int depth = 0;         ///< Far: depth of the patch, whose side is 2^-depth of the control face's
 };
 
-/// Far: PatchTable, PatchMap and EvaluateBasis, which is what its limit stencils are made of.
+/// Evaluation by Far: PatchTable, PatchMap and EvaluateBasis, from which its limit stencils are made, too.
 class FarLimit {
  public:
   struct Options {
-    int level = 10;  ///< of isolation
+    int level = 10;  ///< isolation level
     bool inf_sharp_patches = false;
   };
   FarLimit(const Mesh& mesh, const ReferenceOptions& scheme, const Options& options);
   ~FarLimit();
   FarLimit(FarLimit&&) noexcept;
 
-  /// Nothing in a hole. The squares of polygons of n sides have u and v half as long as ours: derivatives are twice
-  /// ours, second ones four times. The sign of its second derivatives in triangles upside down is put right.
+  /// Returns the limit at a place; absent in a hole. Squares of polygons have u and v half as long as ours, so
+  /// that first derivatives are twice ours, second ones four times. The wrong sign of second derivatives in
+  /// reversed triangles is corrected.
   std::optional<ReferencePoint> at(const Place& place) const;
 
-  /// Positions by limit stencils, row by row; there must be none for holes.
+  /// Returns positions by limit stencils, row by row; no place may be in a hole.
   Points by_stencils(const std::vector<Place>& places) const;
 
  private:
@@ -40,19 +41,19 @@ class FarLimit {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Bfr: a Surface per face.
+/// Evaluation by Bfr: a Surface per face.
 class BfrLimit {
  public:
   struct Options {
-    int smooth_level = 2, sharp_level = 6;  ///< its defaults; 10 at most
+    int smooth_level = 2, sharp_level = 6;  ///< defaults of Bfr; at most 10
   };
   BfrLimit(const Mesh& mesh, const ReferenceOptions& scheme, const Options& options);
   ~BfrLimit();
   BfrLimit(BfrLimit&&) noexcept;
 
-  /// In Bfr's own parameters of a control face; nothing in a hole.
+  /// Returns the limit at Bfr's parameters of a control face; absent in a hole.
   std::optional<ReferencePoint> at(Index face, const BfrParameter& parameter) const;
-  /// At ours; derivatives in polygons as above.
+  /// Returns the limit at a place of ours; derivatives in polygons differ as above.
   std::optional<ReferencePoint> at(const Place& place) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// For the files of the reference alone: a mesh as OpenSubdiv has it, not refined yet.
+// An unrefined mesh in OpenSubdiv; only for the implementation of the references.
 #include <opensubdiv/far/topologyRefiner.h>
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace sublimit::testing {
 
-/// `options.levels` plays no part.
+/// Returns the mesh; `options.levels` is ignored.
 /// @throws std::runtime_error  as reference_refine
 std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> reference_refiner(const Mesh& mesh, const ReferenceOptions& options);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What OpenSubdiv's evaluators make of our stencils, and its own stencils as our rows.
+// Our stencils applied by OpenSubdiv's evaluators, and OpenSubdiv's stencils as rows of ours.
 #include <array>
 #include <vector>
 
@@ -9,17 +9,18 @@
 
 namespace sublimit::testing {
 
-/// By `Osd::CpuEvaluator::EvalStencils`: positions, or with both first derivatives if the stencils have them.
+/// Returns positions by `Osd::CpuEvaluator::EvalStencils`, and both first derivatives if the stencils have
+/// them.
 /// @param points  xyz interleaved, one for each control point
 std::array<std::vector<float>, 3> osd_points(const OpenSubdivStencils<float>& stencils,
                                              const std::vector<float>& points);
 
-/// By `Far::StencilTable::UpdateValues` of a table that has these arrays.
+/// Returns points by `Far::StencilTable::UpdateValues` of a table with these arrays.
 template <class Real>
 std::vector<Real> far_points(const OpenSubdivStencils<Real>& stencils, const std::vector<Real>& points);
 
-/// Catmull-Clark's stencils of all vertices of a level, by OpenSubdiv's factory, as rows of ours, and what
-/// `UpdateValues` makes of them.
+/// Catmull-Clark stencils of all vertices of a level by OpenSubdiv's factory, as rows of ours, and the results
+/// of `UpdateValues` with them.
 struct FarRows {
   StencilTable<double> rows;
   std::vector<double> points;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A mesh as another library leaves it.
+// A refined mesh from another library.
 #include <vector>
 
 #include "sublimit/core/types.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A place on a limit surface, followed through the children of the face that it lies in. Addresses are binary numbers,
-// and 256 bits hold every place on the way exactly. Topology only: indices of the splits, no masks.
+// Following a place on a limit surface through the children of its face. Addresses are binary numbers, so that
+// 256 bits hold every place exactly. Uses only topology, that is indices of the splits, but no masks.
 #include <span>
 
 #include "sublimit/source/address.h"
@@ -14,7 +14,7 @@ namespace sublimit::testing {
 struct DescentPlace {
   enum class Cell {
     square,         ///< a quad; `frame` starts at (0,0) and runs to (1,0)
-    corner,         ///< one corner of a polygon, as control addresses have it: `frame` starts there
+    corner,         ///< square at a corner of a polygon, as in addresses: `frame` starts there
     triangle,       ///< `frame` starts at (0,0) and runs to (1,0)
     around_vertex,  ///< dual schemes: the square between the centres of the four faces around a vertex; `frame` starts
                     ///< at the vertex, its face's centre is (0,0), and those of the next faces, counter-clockwise, are
@@ -26,29 +26,29 @@ struct DescentPlace {
   Precise scale = 1;  ///< d(x,y) / d(u,v), a multiple of the identity
 };
 
-/// Where an address is.
+/// Returns the face and place of an address.
 /// @throws InvalidParameter  no such address, or a place outside it
 DescentPlace place_of(const Topology& control, bool triangles, const Place& place);
 
-/// One refinement with the topology that it refined.
+/// A refinement, with the topology that it refined.
 struct TakenStep {
   const Topology* parent = nullptr;
   const Refinement* refinement = nullptr;
 };
 
-/// The place in the mesh after these steps: all those of a level, of two levels of the rotating schemes (sqrt3,
-/// mid-edge).
-/// @throws UnsupportedTopology  faces cut by Split::quads, where addresses have no natural meaning
+/// Returns the place in the mesh after the steps of a level, or of two levels for schemes that rotate the grid
+/// (sqrt3, mid-edge).
+/// @throws UnsupportedTopology  faces cut by Split::quads, for which addresses have no natural meaning
 DescentPlace descend(const DescentPlace& place, std::span<const TakenStep> steps);
 
-/// Half-edges of a vertex with four faces around it, counter-clockwise.
+/// Returns the half-edge `quarters` steps counter-clockwise around a vertex with four faces.
 inline HalfEdge turned(const Topology& t, HalfEdge h, int quarters) {
   for (; quarters > 0; --quarters) h = t.ccw(h);
   for (; quarters < 0; ++quarters) h = t.next(t.twin(h));
   return h;
 }
 
-/// Half-edge of the same face, `count` corners on.
+/// Returns the half-edge of the same face `count` corners further.
 inline HalfEdge along(const Topology& t, HalfEdge h, int count) {
   for (; count > 0; --count) h = t.next(h);
   return h;

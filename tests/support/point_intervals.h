@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Control meshes with intervals that belong to points.
+// Control meshes with knot intervals that belong to points.
 #include <random>
 
 #include "sublimit/mesh/mesh.h"
@@ -8,7 +8,8 @@
 
 namespace sublimit::testing {
 
-/// Whole numbers up to `most` at both ends of all edges, one at opposite ends of a vertex of four edges.
+/// Returns the mesh with random whole intervals up to `most` at both ends of all edges; opposite ends at a
+/// vertex of four edges have the same one.
 inline Mesh with_point_intervals(Mesh mesh, unsigned seed, unsigned most = 7) {
   std::mt19937 random(seed);
   const Topology t(view(mesh));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Surfaces as polynomials in powers of u and v, which can be put into each other, and their Bezier nets by the formula
-// of the textbooks: what joins of patches are made from.
+// Surfaces as polynomials in powers of u and v, which can be composed, and their Bezier nets by the textbook
+// formula, for tests of joins of patches.
 #include <algorithm>
 #include <random>
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace sublimit::testing {
 
-/// sum a_kl u^k v^l.
+/// The polynomial sum a_kl u^k v^l.
 template <class T>
 struct PowerPolynomial {
-  std::vector<std::vector<T>> a{{T(0)}};  // by k, then l; rows of one size
+  std::vector<std::vector<T>> a{{T(0)}};  // a[k][l]; all rows have the same size
 
   int degree_u() const { return int(a.size()) - 1; }
   int degree_v() const { return int(a[0].size()) - 1; }
@@ -21,11 +21,11 @@ struct PowerPolynomial {
     return {std::vector<std::vector<T>>(size_t(degree_u) + 1, std::vector<T>(size_t(degree_v) + 1, T(0)))};
   }
   static PowerPolynomial constant(const T& c) { return {{{c}}}; }
-  /// c0 + cu u + cv v.
+  /// Returns c0 + cu u + cv v.
   static PowerPolynomial linear(const T& c0, const T& cu, const T& cv) {
     return PowerPolynomial{{{c0, cv}, {cu, T(0)}}}.trimmed();
   }
-  /// Without highest powers that do not occur.
+  /// Returns the polynomial without leading zero coefficients.
   PowerPolynomial trimmed() const {
     PowerPolynomial result = *this;
     const auto is_zero = [](const T& c) { return c == T(0); };
@@ -56,7 +56,7 @@ PowerPolynomial<T> operator*(const PowerPolynomial<T>& f, const PowerPolynomial<
   return r.trimmed();
 }
 
-/// f(u(u, v), v(u, v)).
+/// Returns the composition f(u(u, v), v(u, v)).
 template <class T>
 PowerPolynomial<T> composed(const PowerPolynomial<T>& f, const PowerPolynomial<T>& u, const PowerPolynomial<T>& v) {
   PowerPolynomial<T> sum, u_power = PowerPolynomial<T>::constant(T(1));
@@ -71,11 +71,11 @@ PowerPolynomial<T> composed(const PowerPolynomial<T>& f, const PowerPolynomial<T
   return sum.trimmed();
 }
 
-/// Three coordinates, or four.
+/// A surface: three coordinates, or four homogeneous ones.
 template <class T>
 using PowerSurface = std::vector<PowerPolynomial<T>>;
 
-/// The control points over the unit square, b_ij = sum of C(i,k) C(j,l)/(C(p,k) C(q,l)) a_kl.
+/// Returns the Bezier control points over the unit square, b_ij = sum of C(i,k) C(j,l)/(C(p,k) C(q,l)) a_kl.
 template <class T>
 BezierPatch<T> bezier_patch(const PowerSurface<T>& surface, const T& length = T(1)) {
   BezierPatch<T> patch;
@@ -103,7 +103,7 @@ BezierPatch<T> bezier_patch(const PowerSurface<T>& surface, const T& length = T(
   return patch;
 }
 
-/// Near the plane z = 0 with du = x, dv = y, so that it is regular.
+/// Returns a surface near the plane z = 0 with du = x, dv = y, so that it is regular.
 template <class T>
 PowerSurface<T> random_power_surface(std::mt19937& random, int degree_u, int degree_v) {
   std::uniform_int_distribution<int> draw(-9, 9);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The registries' schemes, refinement and local matrices in 256-bit floats, made once: else every file that uses them
-// makes them all.
+// Templates of the registries' schemes, refinement and local matrices for 256-bit floats, instantiated once, to
+// save compile time in every file that uses them.
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/schemes/schemes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Doubles of all bit patterns: what writers and readers have to keep.
+// Doubles with all kinds of bit patterns, which writers and readers must preserve.
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace sublimit::testing {
 
-/// Random bits as doubles, subnormals and -0 among them; `not_finite`: infinities and NaN of both signs too.
+/// Returns doubles of random bits, including subnormals and -0; with `not_finite` also infinities and NaN of
+/// both signs.
 inline std::vector<double> random_doubles(std::uint64_t seed, std::size_t count, bool not_finite = false) {
   constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> special{

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Tables by patterns of no meaning: many blocks, groups of few and of many patches, with all that a table may have.
+// Random tables by patterns, with many blocks, groups of few and of many patches, and all optional parts of a
+// table.
 #include <algorithm>
 #include <numeric>
 #include <random>
@@ -15,9 +16,9 @@ struct RandomTable {
   unsigned seed = 1;
   int quantities = 1;
   int blocks = 6;
-  int most_rows = 70;     ///< of a block
-  int most_patches = 24;  ///< of a group
-  bool placed = false;    ///< patches put their points in any order
+  int most_rows = 70;     ///< most rows of a block
+  int most_patches = 24;  ///< most patches of a group
+  bool placed = false;    ///< patches store their points in random order
   bool copies = false, first = false, rest = false;
 };
 
@@ -102,7 +103,7 @@ PatternTable<Real> random_table(const RandomTable& options) {
   return PatternTable<Real>(num_control_points, std::move(a));
 }
 
-/// With every feature alone, and all together.
+/// Returns tables with each optional part alone, and with all of them.
 inline std::vector<RandomTable> random_tables() {
   std::vector<RandomTable> tables;
   for (const int quantities : {1, 3, 6}) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Rays laid through points of the limit: corners, middles of sides and middles of faces, along the normal and against
-// it, and as far beside as numbers of other programs are off. They hit there, and closed surfaces as often from inside
-// as from outside.
+// Laws of rays through points of the limit (corners, middles of sides and of faces), along the normal and
+// against it, also displaced by the errors of numbers from other programs. They hit the surface there, and
+// closed surfaces an even number of times.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,20 +26,20 @@
 
 namespace sublimit::testing {
 
-/// Of the size of the surface: rounding, and what programs in float are off.
+/// Displacements relative to the size of the surface, from rounding to the errors of programs in float.
 inline constexpr double ray_offsets[]{0, 1e-16, 1e-14, 1e-12, 1e-9, 1e-6, 1e-3};
-/// Beside by less than what counts as on a ray: t is that of the point.
+/// Largest displacement, relative to the size, for which a hit at the t of the point is expected.
 inline constexpr double as_good_as_through = 1e-14;
 
-/// Rays through points, and at which t.
+/// Rays through points, all at the same t.
 struct LaidRays {
   std::vector<Ray> rays;
   std::vector<Eigen::Vector3d> through;
-  std::vector<double> beside;  ///< how far a ray was moved, of the size of the surface
+  std::vector<double> beside;  ///< displacement of each ray, relative to the size of the surface
   double t = 0;
 };
 
-/// Corners, middles of sides and of faces, each point once.
+/// Returns corners, middles of sides and of faces, each point once.
 inline std::vector<Place> marked_places(const LimitMap& surface, const Points& points) {
   std::vector<Place> all;
   for (Index f = 0; f < surface.faces().size; ++f)
@@ -57,7 +57,8 @@ inline std::vector<Place> marked_places(const LimitMap& surface, const Points& p
   return once;
 }
 
-/// @param stride  of the offsets
+/// Returns the rays through the marked places of a surface.
+/// @param stride  every how manieth of `ray_offsets` is used
 inline LaidRays laid_rays(const LimitMap& surface, const Points& points, size_t stride) {
   const std::vector<Place> places = marked_places(surface, points);
   const LimitSamples on = surface.evaluate(points, places, 1);
@@ -87,7 +88,7 @@ struct LookedAtRays {
   int all = 0, given_up = 0;
 };
 
-/// Looks at the laws. Rays that are given up tell so, and are none of polynomials.
+/// Checks the laws. Rays may be given up only on surfaces without polynomials, and then have this status.
 inline LookedAtRays look_at_rays(const LimitMap& surface, const Points& points, size_t stride, bool polynomials) {
   const LaidRays laid = laid_rays(surface, points, stride);
   const RayHits hits = intersect(surface, points, laid.rays, {.all = true});
@@ -120,7 +121,8 @@ inline LookedAtRays look_at_rays(const LimitMap& surface, const Points& points, 
   return looked;
 }
 
-/// Whether a face visits a vertex twice: the limit folds there, again at every level, and rays may be given up.
+/// Returns true if a face has a vertex twice. The limit then folds there at every level, and rays may be given
+/// up.
 inline bool folds(const Mesh& mesh) {
   size_t first = 0;
   for (const Index size : mesh.face_sizes) {
@@ -135,7 +137,8 @@ inline bool folds(const Mesh& mesh) {
 
 class RayLaws : public ::testing::TestWithParam<std::string> {
  protected:
-  /// As many meshes as the scheme takes; those without a limit somewhere are left out.
+  /// Checks the laws on a mesh, unless enough rays were checked. Meshes without a limit somewhere are only
+  /// counted.
   void look_at_mesh(Mesh mesh, const std::string& name) {
     SCOPED_TRACE(scheme_.name + " on " + name);
     if (folds(mesh)) return;
@@ -165,10 +168,10 @@ class RayLaws : public ::testing::TestWithParam<std::string> {
   const Scheme<double> scheme_ = *find_scheme(GetParam());
   const std::shared_ptr<LimitCache> types_ = std::make_shared<LimitCache>(scheme_, 4096);
   int rays_ = 0, without_limit_ = 0;
-  int given_up_ = 0;  ///< of pieces without polynomials, which the README says may happen
+  int given_up_ = 0;  ///< rays given up on pieces without polynomials, which the README allows
 };
 
-/// One ray of so many may be given up, of those through marked points.
+/// Of so many rays through marked places one may be given up.
 constexpr int rays_to_one_given_up = 20;
 
 inline std::vector<std::string> names_of_schemes() {
@@ -177,7 +180,7 @@ inline std::vector<std::string> names_of_schemes() {
   return names;
 }
 
-/// Of a parameter that is a name.
+/// Returns the name of a test whose parameter is the name of a scheme.
 inline std::string ray_test_name(const ::testing::TestParamInfo<std::string>& tested) {
   std::string name = tested.param;
   std::replace(name.begin(), name.end(), '-', '_');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Polynomial pieces of regular meshes: which control points they have, those beyond borders and sharp edges included,
-// and their bases in 256-bit floats by the recursions of splines, which know no refinement.
+// Polynomial pieces on regular meshes: their control points, including those beyond borders and sharp edges,
+// and their bases in 256-bit floats by recursions of splines, without refinement.
 #include <optional>
 #include <vector>
 
@@ -11,7 +11,7 @@
 
 namespace sublimit::testing {
 
-/// What the limits of regular meshes are.
+/// Kind of the limits of regular meshes.
 struct Spline {
   enum class Kind {
     none,          ///< no polynomial pieces
@@ -21,24 +21,24 @@ struct Spline {
   };
   Kind kind = Kind::none;
   int degree = 0;
-  bool looks_across = false;  ///< points on edges of quads have other weights where the face across is none
+  bool looks_across = false;  ///< points on edges of quads have other weights if the face across is not a quad
 };
 Spline spline_of(const Scheme<Precise>& scheme);
 
-/// Is the vertex that a corner starts in, seen from the corner's face, like those of regular meshes: smooth with
-/// `valence` faces, or on a border or crease with half as many between sharp edges?
+/// Returns true if the vertex of a corner is regular as seen from the corner's face: smooth with `valence`
+/// faces, or on a border or crease with half as many faces between sharp edges.
 bool is_regular_corner(const Level& level, HalfEdge corner, Index valence);
 
-/// Value and derivatives x, y, xx, xy, yy of a polynomial piece, one row each.
+/// Value and derivatives x, y, xx, xy, yy of a polynomial piece, in rows.
 struct PieceValues {
   Eigen::Matrix<Precise, 6, Eigen::Dynamic> rows;
-  bool inside = true;  ///< not on the border of the piece
+  bool inside = true;  ///< false on the border of the piece
 };
 
-/// The piece that contains the place, if it is a polynomial: its whole support is regular, or ends at borders or
-/// infinitely sharp edges with regular vertices, beyond which p_-i = 2 p_0 - p_i (quartic: parallelograms) gives what
-/// the border's masks give.
-/// @param strays  vertices of dual schemes that borders have moved off their natural place; empty for none
+/// Returns the values of the piece that contains a place; absent unless it is a polynomial. For that its
+/// support must be regular, or end at borders or infinitely sharp edges with regular vertices, beyond which
+/// p_-i = 2 p_0 - p_i (quartic: parallelograms) is equivalent to the masks of the border.
+/// @param strays  for dual schemes: vertices that borders have moved off their natural positions; may be empty
 std::optional<PieceValues> piece(const Spline& spline, const Level& level, const PrecisePoints& points,
                                  const std::vector<char>& strays, const DescentPlace& place);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// OpenSubdiv's regression shapes as OBJ files with tags, where a checkout has them beside it. Never part of the
-// project.
+// OpenSubdiv's regression shapes as OBJ files with tags, if they are beside the checkout. They are not part of
+// the project.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -14,7 +14,7 @@ namespace sublimit::testing {
 struct SharedMesh {
   std::filesystem::path path;
   std::string name;    ///< catmark_cube
-  std::string scheme;  ///< by the prefix of the name
+  std::string scheme;  ///< scheme, by the prefix of the name
   friend std::ostream& operator<<(std::ostream& out, const SharedMesh& m) { return out << m.name; }
 };
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Programs that tests need: on a desk a test without its program is skipped, in CI (variable CI) it fails, for
-// `.ci/install-deps --all` has installed the program there. Which other skips there may be, and why, is listed in
+// Programs that tests need. A test without its program is skipped, but fails in CI (environment variable CI),
+// where `.ci/install-deps --all` installs all programs. Other permitted skips and their reasons are listed in
 // tests/stencils/skips_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-/// Goes on with a test only if its program is there.
-/// @param is_there  whether it is
-/// @param package   what to install
+/// Skips or fails a test unless its program is installed.
+/// @param is_there  true if it is installed
+/// @param package   name of the package to install
 #define SUBLIMIT_NEEDS_PROGRAM(is_there, package)                                               \
   if (is_there) {                                                                               \
   } else if (::std::getenv("CI"))                                                               \

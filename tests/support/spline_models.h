@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Models of several spline patches: spheres, tori, cubes, and surfaces in pieces, turned as one likes.
+// Models of several spline patches: spheres, tori, cubes, and surfaces cut into pieces, with patches in any
+// orientation.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,18 +19,18 @@ struct SplineModel {
   std::vector<Points> columns{};
   Coordinates coordinates = Coordinates::plain;
 
-  /// Refers to this model.
+  /// Returns the patches, which refer to this model.
   std::vector<PatchColumns> patches() const {
     std::vector<PatchColumns> result;
     for (size_t i = 0; i < surfaces.size(); ++i) result.push_back({&surfaces[i], columns[i]});
     return result;
   }
-  /// Control points are to be filled in.
+  /// Adds a patch whose control points the caller sets.
   void add(const Knots<double>& u, const Knots<double>& v) {
     surfaces.emplace_back(u, v);
     columns.push_back(Points::Zero(surfaces.back().num_points(), coordinates == Coordinates::homogeneous ? 4 : 3));
   }
-  /// Control points by their Greville abscissae.
+  /// Adds a patch whose control points are a function of their Greville abscissae.
   template <class Function>
   void add(const Knots<double>& u, const Knots<double>& v, const Function& point) {
     add(u, v);
@@ -43,7 +44,7 @@ struct SplineModel {
     columns.insert(columns.end(), other.columns.begin(), other.columns.end());
   }
   SplineModel only(size_t patch) const { return {{surfaces[patch]}, {columns[patch]}, coordinates}; }
-  /// Other knots of a model of one patch.
+  /// Refines a model of one patch to other knots.
   void refine(const Knots<double>& u, const Knots<double>& v) {
     const SplineSurface fine(u, v);
     columns[0] = apply(refinement_matrix(surfaces[0], fine), columns[0]);
@@ -51,7 +52,7 @@ struct SplineModel {
   }
 };
 
-/// The same patch with u reversed (1), v reversed (2), u and v exchanged after that (4).
+/// Returns the model with u reversed (bit 1), v reversed (bit 2), and then u and v exchanged (bit 4).
 inline SplineModel arranged(const SplineModel& model, int arrangement) {
   const SplineSurface& from = model.surfaces[0];
   const auto turned = [](const Knots<double>& given, bool reversed) {
@@ -74,7 +75,7 @@ inline SplineModel arranged(const SplineModel& model, int arrangement) {
   return result;
 }
 
-/// A patch in two, at an inner knot of u.
+/// Returns the two parts of a patch, cut at an inner knot of u.
 inline std::array<SplineModel, 2> cut_in_u(SplineModel model, double t) {
   const int p = model.surfaces[0].u().degree();
   const auto times = int(std::ranges::count(model.surfaces[0].u().all(), t));
@@ -95,7 +96,7 @@ inline std::array<SplineModel, 2> cut_in_u(SplineModel model, double t) {
   return halves;
 }
 
-/// A profile (w x, w z, w) in v, turned about the z axis by the circle of nine points.
+/// Returns a profile (w x, w z, w) in v rotated about the z axis by the circle of nine points.
 inline SplineModel turned_profile(const std::vector<std::array<double, 3>>& profile, const Knots<double>& v) {
   const double h = std::sqrt(0.5), cosine[] = {1, 1, 0, -1, -1, -1, 0, 1, 1}, sine[] = {0, 1, 1, 1, 0, -1, -1, -1, 0};
   SplineModel model{.coordinates = Coordinates::homogeneous};
@@ -113,7 +114,7 @@ inline SplineModel nurbs_sphere() {
   return turned_profile({{0, -1, 1}, {h, -h, h}, {1, 0, 1}, {h, h, h}, {0, 1, 1}},
                         Knots<double>::open(2, 5, {0, 0, 0, 1, 1, 2, 2, 2}));
 }
-/// Radii 3 and 1.
+/// Returns a torus with radii 3 and 1.
 inline SplineModel nurbs_torus() {
   const double h = std::sqrt(0.5), x[] = {4, 4, 3, 2, 2, 2, 3, 4, 4}, z[] = {0, 1, 1, 1, 0, -1, -1, -1, 0};
   std::vector<std::array<double, 3>> profile;
@@ -124,7 +125,7 @@ inline SplineModel nurbs_torus() {
   return turned_profile(profile, Knots<double>::open(2, 9, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}));
 }
 
-/// [-1, 1]^3, normals outwards.
+/// Returns the cube [-1, 1]^3 with outward normals.
 inline SplineModel bilinear_cube() {
   SplineModel model;
   for (int axis = 0; axis < 3; ++axis)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Whether the masks of a curve scheme are the same on all levels, asked of the masks.
+// Test whether the masks of a curve scheme are equal on all levels, by computing them.
 #include "sublimit/curves/curve_scheme.h"
 
 namespace sublimit::testing {

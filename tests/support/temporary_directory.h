@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A directory for the files of one test, gone when the test is done.
+// A directory for the files of a test, removed at its end.
 #include <stdlib.h>
 
 #include <filesystem>
@@ -32,7 +32,7 @@ class TemporaryDirectory {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return path_ / name;
   }
-  /// How many files there are, hidden ones included.
+  /// Returns the number of files, including hidden ones.
   long num_files() const {
     return std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator());
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Every registered scheme, and averaging with its degrees: what the laws of limit surfaces run over.
+// The schemes for which laws of limit surfaces are tested: every registered scheme, and averaging with its
+// degrees.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,8 +30,9 @@ struct TestedScheme {
   }
 };
 
-/// @param largest  degree of averaging. Types of degrees beyond 3, of kobbelt and of interpolatory-sqrt3 are large, a
-/// minute of work each: only in the full sweep.
+/// Returns the schemes. Averaging beyond degree 3, kobbelt and interpolatory-sqrt3 are included only in the
+/// full sweep, since their types are large and take a minute each.
+/// @param largest  largest degree of averaging
 inline std::vector<TestedScheme> schemes_and_degrees(int largest = 9) {
   const bool full = full_sweep();
   if (!full) largest = std::min(largest, 3);
@@ -43,7 +45,7 @@ inline std::vector<TestedScheme> schemes_and_degrees(int largest = 9) {
   return tested;
 }
 
-/// Those of them that a law is about.
+/// Returns the schemes for which `wanted` is true.
 template <class Wanted>
 std::vector<TestedScheme> schemes_and_degrees_if(const Wanted& wanted) {
   std::vector<TestedScheme> tested = schemes_and_degrees();
@@ -51,7 +53,7 @@ std::vector<TestedScheme> schemes_and_degrees_if(const Wanted& wanted) {
   return tested;
 }
 
-/// catmull_clark, averaging_5
+/// Returns the name of a test: catmull_clark, averaging_5.
 inline std::string test_name(const ::testing::TestParamInfo<TestedScheme>& info) {
   std::string name = info.param.name;
   std::replace(name.begin(), name.end(), '-', '_');
@@ -60,16 +62,17 @@ inline std::string test_name(const ::testing::TestParamInfo<TestedScheme>& info)
 }
 
 inline bool takes_triangles(const Scheme<double>& scheme) { return scheme.face_size() == 3; }
-/// Its regular pieces are polynomials.
+/// Returns true if the regular pieces of a scheme are polynomials.
 inline bool has_polynomials(const Scheme<double>& scheme) { return !scheme.claims.limit.starts_with("no "); }
 
-/// So many times as long does the truth about it, or the first touch of a piece, take: long products of averages.
+/// Returns a factor of the time for reference values and for analysing pieces, which is large for long products
+/// of averages.
 inline int effort(const Scheme<double>& scheme) {
   const int steps = static_cast<int>(scheme.steps.size());
   return steps <= 2 ? 1 : steps * steps;
 }
 
-/// Closed, with borders, and with as much as may be sharp.
+/// Returns hard meshes for a scheme: closed, with borders, and with all kinds of sharp edges that it allows.
 inline std::vector<Mesh> hard_meshes(const Scheme<double>& scheme, unsigned seed) {
   std::vector<Hardness> kinds{{}, {.open = true}};
   if (scheme.sharpening != Sharpening::boundary) kinds.push_back({.open = true, .sharp = true});

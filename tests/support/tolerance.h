@@ -10,10 +10,10 @@ namespace sublimit::testing {
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Sums of m terms of size `magnitude` (sum |w| * max |x|). Products of k levels: m = 4 k.
+/// Tolerance of sums of m terms of size `magnitude` (sum |w| * max |x|). Products of k levels: m = 4 k.
 inline double rounding(double terms, double magnitude = 1) { return 4 * terms * eps * magnitude; }
 
-/// Simple eigenvalues and eigenvectors of conditioning kappa.
+/// Tolerance of simple eigenvalues and eigenvectors of conditioning kappa.
 inline double eigen(double kappa = 1) { return 100 * eps * kappa; }
 
 /// Agreement with a reference that computes the same sums in another order, relative to the bounding box.
@@ -24,10 +24,10 @@ inline constexpr double reference_angle = 1e-9;
 /// what lib/README.md promises.
 inline constexpr double first_derivative = 1e-11, second_derivative = 1e-9;
 
-/// The same weights by another route: seen from another face, by eigenvectors instead of blocks. Hundreds of terms
-/// each.
+/// Equal weights of hundreds of terms that are computed in another way: from another face, by eigenvectors
+/// instead of blocks.
 inline constexpr double other_route = 1e-12;
-/// Derivatives of order 2 as a program prints them, absolute: of size 10, from turned faces.
+/// Second derivatives of size 10 as a program prints them, absolute, from rotated faces.
 inline constexpr double printed_derivative = 1e-10;
 /// Tables in float against the same in double, relative to the bounding box.
 inline constexpr double float_reference = 1e-6;
@@ -37,18 +37,18 @@ inline constexpr double seven_digits = 1e-6, eight_decimals = 5.01e-9;
 /// Third derivatives of polynomial pieces from differences of their control points, relative to the second ones.
 inline constexpr double third_derivative = 1e-9;
 
-/// Fits to points of a known surface, relative to its size: iterations stop when the energy falls no more, the
-/// distances then, and control points, which some of the distances hardly see.
+/// Fits to points of a known surface, relative to its size, iterated until the energy stops decreasing:
+/// distances, and control points, some of which hardly affect the distances.
 inline constexpr double found_again = 1e-10, found_control_points = 1e-7;
 
-/// Distances and parameters of rays, relative to the size of the surface: what a search stops at, and how it grows
-/// where rays come at an angle.
+/// Distances and parameters of rays, relative to the size of the surface: the accuracy of the search, which is
+/// multiplied for oblique rays.
 inline constexpr double found_hit = 1e-10;
-/// The same at slopes down to 1e-5, by which roundings of the coordinates are divided.
+/// These at slopes down to 1e-5, by which rounding errors of the coordinates are divided.
 inline constexpr double found_grazing = 1e-9;
-/// Where a ray touches a surface of the size 1: it is as near as a search sees for the root of that, on either side.
+/// Positions where a ray touches a surface of size 1: the square root of the distance that the search resolves.
 inline constexpr double found_touch = 1e-5;
-/// Distances from a search that stops at 1e-12 of the surface's size.
+/// Distances from a search with the accuracy 1e-12 of the surface's size.
 inline constexpr double found_distance = 1e-12;
 
 /// Exact faces of CAD models, relative to the size of the surface: nets of B-splines are sums of a few products.

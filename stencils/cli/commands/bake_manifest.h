@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Many tables: a manifest of jobs, a JSON object a line, of which a machine of a farm does a share.
+// Many tables: a manifest of jobs with a JSON object on each line. Several machines can each do a share of it.
 //
 //     {"mesh": "car.obj", "scheme": "catmull-clark", "levels": 3, "output": "tables/car.safetensors"}
 //     {"mesh": "pot.obj", "scheme": "loop", "triangulate": true, "grid": 9, "derivatives": 1, "precision": "double",
@@ -21,21 +21,23 @@ struct ManifestJob {
 
 /// Reads all jobs of a manifest.
 /// @param defaults  values of fields that lines do not set: threads, quiet, limits
-/// @throws FormatError  lines that are no jobs, two jobs with one output; with file:line;  IoError
+/// @throws FormatError  a line that is not a job, two jobs with the same output; the message has file and line
+/// @throws IoError      missing, unreadable
 std::vector<ManifestJob> read_manifest(const std::string& path, const BakeJob& defaults);
 
-/// `3/8`: the third of eight shares, every eighth job from the third on.
+/// A share of the jobs: `3/8` is the third of eight shares, that is every eighth job from the third on.
 struct Shard {
   std::int64_t number = 1, count = 1;
   bool has(size_t job) const { return static_cast<std::int64_t>(job) % count == number - 1; }
 };
-/// @throws InvalidOption
+/// Reads a share such as `3/8`.
+/// @throws InvalidOption  another text
 Shard parse_shard(const std::string& text);
 
-/// Does the jobs of a share one after the other; one that fails does not stop the others.
-/// @param log  a file that gets a JSON object a line for each job; empty: none
-/// @param dictionary  as of `Dictionaries`, written after every job that has taught something
-/// @return     the highest exit status of a job
+/// Runs the jobs of a share one after the other. A job that fails does not stop the others.
+/// @param log         file for a log, with a JSON object on a line for each job; empty: no log
+/// @param dictionary  path of `Dictionaries`, which are written after every job with new entries
+/// @return            the highest exit status of a job
 int bake_manifest(const std::string& path, const Shard& shard, const std::string& log, const std::string& dictionary,
                   const BakeJob& defaults);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// `sublimit schemes --gallery DIR`.
+// The gallery of all schemes, `sublimit schemes --gallery DIR`.
 #include <memory>
 
 #include "support/common.h"
@@ -13,10 +13,10 @@ struct GalleryRun {
   int faces = 0;
 };
 
-/// The gallery's options on an app.
+/// Adds the gallery's options to a subcommand.
 std::shared_ptr<GalleryRun> add_gallery(CLI::App& command);
 
-/// Draws and writes; says what it made unless `silent`.
+/// Draws the gallery, writes its files, and prints what was written unless `silent`.
 void draw_gallery(const GalleryRun& run, bool silent);
 
 }  // namespace sublimit::cli

@@ -11,14 +11,14 @@ namespace sublimit::cli {
 
 struct SampleJob {
   Common common;
-  // One of these three says where.
+  // Exactly one of these three gives the places.
   std::string at;                    ///< a CSV; empty: not given
-  std::optional<std::int64_t> grid;  ///< samples a side, 2 at least
+  std::optional<std::int64_t> grid;  ///< samples on each side of a face, >= 2
   std::optional<std::int64_t> random_count;
   std::uint64_t seed = 0;
   int derivatives = 0;  ///< 0, 1 or 2
   bool clamp = false, curvature = false;
-  bool closed = false;  ///< curves of a CSV
+  bool closed = false;  ///< curves of a CSV are closed
   bool curves = false;  ///< sample the curves of recipes instead of their surfaces
   std::string output;
 };

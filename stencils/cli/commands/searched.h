@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The surface that `closest` and `intersect` search: the limit of a mesh, or the patches of a file, which take no
-// scheme.
+// The surface that `closest` and `intersect` search: the limit of a mesh, or the free-form patches of a file,
+// which need no scheme.
 #include <functional>
 
 #include "support/common.h"
@@ -9,8 +9,8 @@
 
 namespace sublimit::cli {
 
-/// Reads it, and calls search(surface). Errors name the file.
-/// @param free_form  `is_free_form_job`, asked for before other files are read
+/// Reads the surface and calls search(surface). Errors name the file.
+/// @param free_form  result of `is_free_form_job`, which callers check before they read other files
 void with_searched_surface(const Common& common, bool free_form, Progress& progress,
                            const std::function<void(const SearchedSurface&)>& search);
 

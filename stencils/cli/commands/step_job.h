@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Arguments of `sublimit step`, and its work for models of meshes and of free-form surfaces.
+// Arguments of `sublimit step`, and its steps that models of meshes and of free-form surfaces share.
 #include <nlohmann/json.hpp>
 
 #include "support/common.h"
@@ -14,17 +14,17 @@ struct StepJob {
   bool no_packing = false;
 };
 
-/// Fails before any work where outputs cannot be written, or OpenCASCADE is missing.
-/// @return  what makes files
+/// Checks before any work that outputs can be written and that the OpenCASCADE part is there.
+/// @return  function that makes files
 CadFileEntry* prepare_step(const StepJob& job);
 
-/// The file's bytes. The product has the file's name.
+/// Returns the bytes of the CAD file of a model. The product in it has the name of the file.
 CadFile cad_file_of(const StepJob& job, CadFileEntry* entry, const BoundaryModel& model, Progress& progress);
 
-/// Writes the file, and the report if one is wanted.
+/// Writes the CAD file, and the report if the job has a path for it.
 void write_step(const StepJob& job, const CadFile& file, const nlohmann::ordered_json& report, Progress& progress);
 
-/// `step` of free-form surfaces, recipes, and triangles with normals.
+/// Runs `sublimit step` for free-form surfaces, recipes, and triangles with normals.
 /// @return  the exit status
 int step_patches(const StepJob& job);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The part of the program for GPUs, as a library that is loaded when it is wanted: a package of its own can bring it.
+// The part of the program for GPUs: a library that is loaded on first use, so that it can be a package of its
+// own.
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@
 
 namespace sublimit::cli {
 
-/// A device, and its API and kind in words.
+/// A device, with its API and its kind as words.
 struct DescribedGpu {
   GpuInfo info;
   std::string api, kind;
@@ -19,9 +20,9 @@ struct DescribedGpu {
 constexpr const char* gpu_library = "libsublimit_gpu.so";
 constexpr const char* gpu_devices_entry = "sublimit_gpu_devices";
 constexpr const char* gpu_applier_entry = "sublimit_gpu_applier";
-/// `gpu_devices`, by a function that has a C name.
+/// Type of the function `gpu_devices_entry`, which returns the devices, as `gpu_devices` does.
 using GpuDevicesEntry = void(std::vector<DescribedGpu>& devices, std::string& why_none);
-/// Applies a table on the device of this number, likewise.
+/// Type of the function `gpu_applier_entry`, which makes an applier of a table on the device of this number.
 using GpuApplierEntry = void(const PatternTable<float>& table, int device,
                              std::unique_ptr<TableApplier<float>>& applier);
 

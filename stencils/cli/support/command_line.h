@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Command lines of a program with subcommands: `help [SUBCOMMAND]`, and messages that say what is wrong in a line and
-// offer the nearest names.
+// Parsing the command line of a program with subcommands: adds `help [SUBCOMMAND]`, and messages that suggest
+// the nearest names for unknown ones.
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -10,13 +10,14 @@ namespace sublimit::cli {
 
 /// Result of parsing a command line.
 struct ParsedCommandLine {
-  bool runs = true;      ///< a subcommand is to run; otherwise only the texts are to print
-  int status = 0;        ///< else the exit status: 0, or 2 for a line that is wrong
-  std::string out, err;  ///< texts for stdout and stderr
+  bool runs = true;                                     ///< true: run the subcommand; false: only print the texts
+  int status = 0;                                       ///< exit status if `runs` is false: 0, or 2 for an error
+  std::string out, err;                                 ///< texts for stdout and stderr
   std::string manual_kind = {}, manual_directory = {};  ///< arguments of `--generate KIND DIR`
 };
 
-/// Adds the subcommand `help` and parses. `--generate KIND DIR` is taken if the program has that option.
+/// Adds the subcommand `help`, and parses a command line. `--generate KIND DIR` is accepted if the program has
+/// that option.
 ParsedCommandLine parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
 }  // namespace sublimit::cli

@@ -32,14 +32,14 @@ struct Common {
 
 using Loaded = MeshJob;
 
-/// A line on stderr while a step takes longer than a second, if a person is looking.
+/// Progress: a line on stderr while a step takes longer than a second, if stderr is a terminal.
 class Progress {
  public:
   explicit Progress(bool quiet);
   ~Progress();
-  /// A step begins; an empty one is nothing to tell.
+  /// Starts a step with this description; an empty one ends the last step.
   void step(const std::string& what);
-  /// Other words for a step that goes on.
+  /// Changes the description of the current step.
   void note(const std::string& what);
   /// Returns a function for writers, which reports the number of bytes of this step written so far.
   std::function<void(std::int64_t)> bytes_written() {
@@ -54,19 +54,19 @@ class Progress {
   std::condition_variable woken_;
   std::string what_;
   std::chrono::steady_clock::time_point start_;
-  std::atomic<std::int64_t> bytes_ = 0;  // written by this step
+  std::atomic<std::int64_t> bytes_ = 0;  // bytes that this step has written
   bool done_ = false, visible_ = false;
-  std::thread watcher_;  // only where the line may be shown
+  std::thread watcher_;  // runs only if the line may be shown
 };
 
-/// Adds --threads and --quiet, then the rest, to a subcommand.
+/// Adds options to a subcommand: `add_run` --threads and --quiet, `add_mesh` the options of mesh and scheme.
 void add_run(CLI::App& command, Common& common);
 void add_mesh(CLI::App& command, Common& common, bool scheme_required);
 
-/// The scheme's options on the command line, by name.
+/// Returns the scheme's options that the command line gives, by name.
 SchemeOptions given_options(const Common& common);
 
-/// Holds the rest of the run to --threads.
+/// Limits the rest of the run to the number of --threads.
 void limit_threads(const Common& common);
 
 /// Reads the mesh and its sidecar, prints warnings, and finds the scheme if one was named.
@@ -75,47 +75,50 @@ Loaded load(const Common& common, Progress& progress);
 /// Returns a function for `refine`, which reports each of `count` levels.
 std::function<void(int)> telling_levels(Progress& progress, int count);
 
-/// Levels 0 to `count` of the mesh.
+/// Returns levels 0 to `count` of the mesh.
 std::vector<Level> refined_levels(const Loaded& loaded, int count, Progress& progress);
 
-/// Points of the last level, from those of the first.
+/// Returns the points of the last level from those of the first.
 Points refined_points(const std::vector<Level>& levels, const Points& control);
 
-/// An option's distance above 0, or so many per cent of the diagonal of the control mesh's box.
-/// @throws InvalidOption  no such number, naming the option
+/// Reads an option that is a distance above 0, or a percentage of a length: "0.01", "0.1%".
+/// @param diagonal  diagonal of the control mesh's bounding box, to which percentages refer
+/// @throws InvalidOption  another text; the message names the option
 double distance_option(const std::string& option, const std::string& text, double diagonal);
 
 /// Returns true if the mesh has texture coordinates that the output format can hold.
 bool has_channel(const Loaded& loaded, const std::string& output);
 
-/// Levels of the mesh's texture coordinates, if it has any and the output has room for them. Where the scheme cannot
-/// refine them they are dropped with a warning, unless --face-varying asks for them.
+/// Returns the levels of the mesh's texture coordinates; empty if it has none or the output format cannot hold
+/// them. If the scheme cannot refine them they are dropped with a warning, unless --face-varying asks for them.
 std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,
                                               const std::vector<Level>& levels, const std::string& output);
 
 /// Calls `body`, and adds the names of mesh and scheme to its errors about the mesh.
 void naming_mesh(const Common& common, const std::function<void()>& body);
 
-/// A message of the library with the options that would help, behind what they would do, and verbs as they are typed.
+/// Returns a message of the library in the words of the program: with the options that remedies need, and with
+/// subcommands as they are typed ("`sublimit info`").
 std::string in_words_of_the_program(std::string message);
 
-/// Fails before any work if an output cannot be written: its extension, its directory, a file in its place that must
-/// not be touched. An empty list takes any extension.
+/// Checks before any work that an output can be written: its extension, its directory, the permissions of an
+/// existing file. An empty list accepts any extension.
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions);
-/// Fails if an output would overwrite the tags that lie beside a mesh.
-/// @param option  that names the output
+/// Checks that an output does not overwrite the file with tags beside a mesh.
+/// @param option  option that gives the output
 void check_not_sidecar(const std::string& option, const std::string& path, const std::string& mesh);
 
-/// Fails before any work if a file of about so many bytes has no room beside `path`. Devices and pipes take any.
-/// @param what    the job, in the plural
-/// @param advice  what would need less
-/// @throws ResourceError
+/// Checks before any work that the disk of `path` has room for about so many bytes. Devices and pipes are not
+/// checked.
+/// @param what    the job, in the plural, for the message
+/// @param advice  a remedy, for the message: "use fewer points"
+/// @throws ResourceError  not enough room
 void check_disk(const std::string& what, const std::string& path, double bytes, const std::string& advice);
 
-/// Makes the directory of outputs, and those above it, where they are missing.
+/// Makes a directory for outputs, and its parents, unless they exist.
 void make_output_directory(const std::string& path);
 
-/// A subcommand: its options on an app, and what runs once they are parsed; returns the exit status.
+/// Function that runs a subcommand after its options are parsed. Returns the exit status.
 using Command = std::function<int()>;
 Command add_schemes(CLI::App& app);
 Command add_info(CLI::App& app);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Tables applied by an evaluator, of a CPU or of a GPU.
+// `TableApplier` by an evaluator of the CPU or of a GPU.
 #include <utility>
 
 #include "support/table_applier.h"
 
 namespace sublimit::cli {
 
-/// Forwards to `Evaluator`, which has the functions of `PatternEvaluator`.
+/// Applier that forwards to an `Evaluator` with the functions of `PatternEvaluator`.
 template <class Real, class Evaluator>
 class EvaluatorApplier : public TableApplier<Real> {
  public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Files of free-form curves and surfaces on the command line: they take no scheme.
+// Files of free-form curves and surfaces on the command line, which need no scheme.
 #include <nlohmann/json_fwd.hpp>
 
 #include "support/common.h"
@@ -16,18 +16,19 @@ namespace sublimit::cli {
 /// @throws InvalidOption  a file without free-form surfaces, which needs a scheme
 bool is_free_form_job(const Common& common);
 
-/// @throws InvalidOption  options that are of meshes
+/// Checks that no options are given that are only for meshes.
+/// @throws InvalidOption  such an option
 void refuse_mesh_options(const Common& common);
 
-/// The shapes of the file; its warnings are printed.
+/// Loads the shapes of a file, and prints its warnings.
 FreeForm load_free_form(const Common& common);
 /// Loads the surfaces of a file, and reports those that are left out.
 FreeFormPatches load_free_form_patches(const Common& common, const FreeForm& shapes);
 
-/// Surfaces of a free-form .obj or of recipes, as one source. Those left out are reported.
+/// Surfaces of a free-form .obj or of recipes, as one source. Surfaces that are left out are reported.
 struct LoadedPatches {
   PatchSet patches;
-  Points columns;  ///< x 3, or x 4, homogeneous
+  Points columns;  ///< control points x 3, or x 4 if homogeneous
 };
 LoadedPatches load_patches(const Common& common);
 /// Curves of a free-form .obj or of recipes, as one source.
@@ -47,25 +48,28 @@ bool has_free_form(const std::string& path);
 /// Prints information on free-form shapes, for `info`.
 void print_free_form(const Common& common, const FreeForm& shapes, bool json);
 
-/// `refine` and `limit` of the free-form surfaces of a file.
+/// Runs `refine` or `limit` for the free-form surfaces of a file.
 void refine_free_form(const Common& common, int levels, const std::string& output, const std::string& matrix);
 void limit_free_form(const Common& common, int levels, const std::string& output, bool normals);
 
 /// A fit of the free-form surfaces of a file to targets at places.
 struct FreeFormFit {
-  FreeForm shapes;  ///< with their new points
+  FreeForm shapes;  ///< shapes with fitted control points
   FitReport report;
 };
-/// @throws FormatError          targets that are at no place of the surfaces
-/// @throws InvalidOption        recipes, whose data are not control points; pins that are no list
-/// @throws UnsupportedTopology  surfaces by coefficients, or without weights, beside rational ones
+/// Fits the free-form surfaces of a file to targets.
+/// @param pin  list of control points that stay fixed
+/// @throws FormatError          a target that is not at a place of the surfaces
+/// @throws InvalidOption        recipes, whose data are not control points; `pin` is not a list
+/// @throws UnsupportedTopology  surfaces whose control points are not those of the file: given by coefficients,
+///                              or polynomial ones beside rational ones
 FreeFormFit fit_free_form(const Common& common, const FitTargets& targets, FitSettings settings, const std::string& pin,
                           Progress& progress);
 
-/// The free-form curves and surfaces of a file, or those of recipes, as a report of kind "free-form"; what was found is
-/// printed by `print_free_form_report`.
-/// @param tolerances  as `--tolerance` has them
-/// @throws InvalidOption  another tolerance, options that are of meshes
+/// Returns the report of kind "free-form" on the curves and surfaces of a file, or of recipes.
+/// `print_free_form_report` prints a summary of it.
+/// @param tolerances  values of --tolerance
+/// @throws InvalidOption  an invalid tolerance, options that are only for meshes
 nlohmann::ordered_json analyze_free_form(const Common& common, const std::vector<std::string>& tolerances,
                                          Progress& progress);
 void print_free_form_report(const nlohmann::ordered_json& report);

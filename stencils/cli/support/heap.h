@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The heap of a program that takes large arrays and gives them back, again and again.
+// Settings of malloc for a program that allocates and frees large arrays again and again.
 #include <cstddef>
 #include <cstdlib>
 #ifdef __GLIBC__
@@ -13,14 +13,14 @@
 
 namespace sublimit::cli {
 
-/// Tells malloc to reuse freed arrays up to 64 MB and to use huge pages for the first 256 MB:
-/// without, the system clears each page of every array anew, which was a quarter of the time of `refine` and `apply`.
-/// No memory is taken here, addresses only. Where the C library is another one nothing happens.
+/// Tells malloc to reuse freed arrays up to 64 MB and to use huge pages for the first 256 MB. Otherwise the
+/// system clears each page of every array anew, which was a quarter of the time of `refine` and `apply`. Only
+/// reserves addresses, no memory. Does nothing with C libraries other than glibc.
 inline void prepare_heap() {
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   constexpr std::size_t in_huge_pages = std::size_t{256} << 20;
   ::mallopt(M_TRIM_THRESHOLD, INT_MAX);
-  ::mallopt(M_MMAP_THRESHOLD, INT_MAX);  // the next array lies in the heap, not beside it
+  ::mallopt(M_MMAP_THRESHOLD, INT_MAX);  // so that the next array is part of the heap
   if (void* const start = std::malloc(in_huge_pages)) {
     prefer_huge_pages(start, in_huge_pages);
     std::free(start);

@@ -27,11 +27,11 @@ enum class FileKind {
   gltf
 };
 
-/// The kind of a regular file or a directory. Pipes and devices are unknown: what is read from them is gone. So are
-/// files that are not there and text that begins like no format that we know.
+/// Returns the kind of a regular file or a directory. Unknown are missing files, text that no known format
+/// begins with, and pipes and devices, which are not read because their bytes can be read only once.
 FileKind file_kind(const std::string& path);
 
-/// "an OBJ file"; for use in messages.
+/// Returns a kind as words for messages: "an OBJ file".
 const char* name_of(FileKind kind);
 
 /// Returns the kind of file that an argument or option takes: "a control mesh, .obj, .ply or .off"; empty if it does
@@ -41,9 +41,11 @@ std::string input_meaning(const CLI::App& command, const CLI::Option& option);
 /// Extensions of the files that an argument or option takes, without the dot; empty for any, or if it names none.
 std::vector<std::string> input_extensions(const CLI::App& command, const CLI::Option& option);
 
-/// Fails if a file stands where a subcommand takes another kind: a table for a mesh, a mesh for a CSV, swapped
-/// arguments, a directory, an empty file. Arguments and options are known by their names.
-/// @throws FormatError, IoError  naming the file, what it is, and what belongs in its place
+/// Checks that files have the kinds that a subcommand expects: finds a table in the place of a mesh, a mesh in
+/// the place of a CSV, swapped arguments, directories, empty files. Arguments and options are recognised by
+/// their names.
+/// @throws FormatError, IoError  a file of another kind; the message has the file, its kind and the expected
+///                               one
 void check_input_files(const CLI::App& command);
 
 }  // namespace sublimit::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The manual: one description of the subcommands, read from CLI11's tree, and what is made of it: `--help`, manual
-// pages, completions for shells, reference pages. None of them has words of its own, so they cannot disagree.
+// The manual: one description of the subcommands, read from CLI11's options, from which `--help`, manual pages,
+// completions for shells and reference pages are made. They have no text of their own, so they cannot disagree.
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -16,7 +16,7 @@ namespace sublimit::cli {
 enum class ValueKind { none, text, words, scheme, scheme_option, in_file, out_file, directory, verb };
 
 struct OptionPage {
-  std::vector<std::string> names;  ///< "-l", "--levels"; of an argument its one name
+  std::vector<std::string> names;  ///< "-l", "--levels"; an argument has one name
   ValueKind kind = ValueKind::text;
   std::string value;                    ///< "LEVELS", "float|double"; empty for a flag
   std::string text;                     ///< description
@@ -57,29 +57,30 @@ struct ProgramPage {
   std::vector<VerbPage> verbs;  ///< in the order of `sublimit --help`
 };
 
-/// Names of all schemes, surfaces and curves, with their options: what `-s` and `--option` take.
+/// Returns the names of all schemes for surfaces and curves with their options: the values of `-s` and
+/// `--option`.
 std::vector<std::pair<std::string, std::vector<OptionInfo>>> scheme_words();
 
 /// Returns words in one line.
 std::string joined(const std::vector<std::string>& parts, const char* between = " ");
 
-/// Page of a subcommand, or of the program itself.
+/// Returns the page of a subcommand, or of the program itself.
 VerbPage verb_page(const CLI::App& command);
 ProgramPage program_page(const CLI::App& app);
 
-/// `--help` of the pages above.
+/// Formats `--help` from these pages.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
 };
 
-/// Kinds of `--generate`: man, bash, zsh, fish, markdown.
+/// Returns the kinds of `--generate`: man, bash, zsh, fish, markdown.
 const std::vector<std::string>& manual_kinds();
 
-/// Files of a kind, as name and text: "sublimit-refine.1", "_sublimit".
+/// Returns the files of a kind as names ("sublimit-refine.1", "_sublimit") and texts.
 std::vector<std::pair<std::string, std::string>> manual_files(const ProgramPage& page, const std::string& kind);
 
-/// Writes them into a directory, which is made if it is not there: all of them, or none.
+/// Writes the files of a kind into a directory, which is made if it does not exist: all files, or none.
 /// @throws InvalidOption  no such kind, with the nearest names
 /// @throws IoError        the directory cannot be made, a file cannot be written
 void write_manual(const ProgramPage& page, const std::string& kind, const std::string& directory);

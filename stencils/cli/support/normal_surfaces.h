@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Surfaces through points and normals on the command line: schemes without a matrix on meshes of triangles, with the
-// normals of an OBJ; or recipes of such surfaces, which name them by their kinds.
+// Surfaces through points and normals on the command line: nonlinear schemes on triangle meshes with the
+// normals of an OBJ, or recipes of the kinds `nielson` and `piper`.
 #include "support/common.h"
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/geometric/placed_surface.h"
@@ -9,11 +9,12 @@
 
 namespace sublimit::cli {
 
-/// Returns true if `common.scheme` names such a scheme, or all surfaces of a file of recipes are such. They are left
-/// out of files that have linear surfaces too.
+/// Returns true if `common.scheme` names such a scheme, or if all surfaces of a file of recipes are of these
+/// kinds. From files that also have linear surfaces they are left out.
 bool is_normal_job(const Common& common);
 
-/// @throws InvalidOption  options that are of subdivision schemes or curves, unknown options of the scheme
+/// Checks the options of such a job.
+/// @throws InvalidOption  options that are for subdivision schemes or curves, unknown options of the scheme
 void check_normal_job(const Common& common, bool closed);
 
 struct NormalSurface {
@@ -22,15 +23,15 @@ struct NormalSurface {
   NormalMesh data;  ///< checked
 };
 
-/// Reads mesh and normals, or the meshes and triangles of all recipes, in their order; prints what they are worth a
-/// note for.
-/// @throws InvalidMesh, UnsupportedTopology  what the scheme cannot take, with the name of the mesh or recipe
-/// @throws FormatError, IoError              meshes that recipes name, which cannot be read
+/// Reads mesh and normals, or the meshes and triangles of all recipes in their order, and prints notes on them.
+/// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme does not take; the message names it or its
+///                                           recipe
+/// @throws FormatError, IoError              a mesh of a recipe that cannot be read
 std::vector<NormalSurface> load_normal_surfaces(const Common& common, Progress& progress);
 /// Loads the surface of a recipe of kind `nielson` or `piper`.
 NormalSurface load_normal_surface(const Common& common, const Recipe& recipe, Progress& progress);
 
-/// Why the scheme does not take the mesh; empty if it does.
+/// Returns the reason why the scheme does not take a mesh; empty if it does.
 std::string why_no_normal_surface(const Common& common, const Mesh& mesh);
 
 /// Arguments of `refine` and `limit`, which write points of the surface.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The most memory that this process had at once, since its start or since it was last asked to forget.
+// The peak memory of this process, since its start or since the last reset.
 #include <sys/resource.h>
 
 #include <cstdint>

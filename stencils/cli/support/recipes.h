@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Recipes on the command line: they take no scheme.
+// Recipes on the command line, which need no scheme.
 #include "support/common.h"
 #include "sublimit/stencils/recipes/detail/recipe.h"
 
@@ -9,13 +9,13 @@ namespace sublimit::cli {
 /// Returns true if the file is to be read as recipes: a .json, and no scheme is given.
 bool is_recipe_job(const Common& common);
 
-/// The recipes of the file; their notes are printed.
+/// Loads the recipes of a file, and prints their notes.
 std::vector<Recipe> load_recipes(const Common& common);
 
 /// Part of recipes that a job uses: curves; linear surfaces; or, if there are none, surfaces that are not linear.
 enum class Sampled { curves, surfaces, normal_triangles };
 
-/// Says which recipes a job leaves out, and why.
+/// Prints which recipes a job leaves out, and why.
 void tell_left_out(const Common& common, const std::vector<Recipe>& recipes, Sampled taken);
 
 /// Prints information on recipes, for `info`.

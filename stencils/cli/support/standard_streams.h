@@ -6,13 +6,13 @@
 
 namespace sublimit::cli {
 
-/// First of all in `main`: replaces the C streams `stdout` and `stderr`, ignores SIGPIPE, and opens /dev/null in the
-/// place of standard descriptors that are closed, lest an output file gets their number.
+/// To be called first in `main`: replaces the C streams `stdout` and `stderr`, ignores SIGPIPE, and opens
+/// /dev/null for standard descriptors that are closed, so that no output file gets their number.
 void prepare_standard_streams();
 
-/// Last of all: writes what is buffered, and says on stderr why text for stdout was lost, if any was.
-/// @param program  the name that the message begins with
-/// @return         `status`, or if that is 0 the status of the error that lost the text
+/// To be called last: flushes the streams, and reports on stderr if text for stdout was lost.
+/// @param program  name of the program, the start of the message
+/// @return         `status`, or if that is 0 the status of the error by which text was lost
 int finish_standard_streams(const char* program, int status);
 
 }  // namespace sublimit::cli

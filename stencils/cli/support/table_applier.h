@@ -10,7 +10,7 @@
 
 namespace sublimit::cli {
 
-/// Functions as those of `PatternEvaluator`.
+/// A table on some device, with the functions of `PatternEvaluator`.
 template <class Real>
 class TableApplier {
  public:
@@ -18,7 +18,7 @@ class TableApplier {
   virtual const PatternTable<Real>& table() const = 0;
   virtual void apply(std::span<const Real> points, int channels, std::span<Real> result) const = 0;
   virtual void apply(const Evaluation<Real>& evaluation) const = 0;
-  /// "NVIDIA H100, CUDA"; empty: the CPU.
+  /// Returns the device as words, "NVIDIA H100, CUDA"; empty for the CPU.
   virtual std::string device() const = 0;
 };
 
@@ -28,9 +28,10 @@ std::unique_ptr<TableApplier<Real>> cpu_applier(const PatternTable<Real>& table)
 template <class Real>
 std::unique_ptr<TableApplier<Real>> cpu_applier(const PatternTable<Real>&&) = delete;
 
-/// @param device  as `sublimit devices` counts
-/// @throws InvalidOption  there is no such device, with what is missing and how to do without
-/// @throws ResourceError, IoError  no memory left on the device; it is lost
+/// @param device  number of the device in `sublimit devices`
+/// @throws InvalidOption  no such device; the message has what is missing and an alternative
+/// @throws ResourceError  not enough memory on the device
+/// @throws IoError        the device was lost
 std::unique_ptr<TableApplier<float>> gpu_applier(const PatternTable<float>& table, int device);
 std::unique_ptr<TableApplier<float>> gpu_applier(const PatternTable<float>&&, int) = delete;
 

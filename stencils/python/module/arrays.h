@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// NumPy arrays over memory of ours, and ours over theirs: nothing is copied on the way out, and an array keeps alive
-// what it shows.
+// Arrays of the library as NumPy arrays, and the reverse. Results are not copied: a NumPy array refers to the
+// memory of the library and keeps its owner alive.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -18,7 +18,7 @@ namespace sublimit::python {
 
 namespace py = pybind11;
 
-/// What the package hands over: checked there, of this type, rows one after the other.
+/// An array from the Python package, which has checked it: numbers of type T in C order.
 template <class T>
 using Array = py::array_t<T, py::array::c_style>;
 
@@ -34,7 +34,7 @@ inline Points points(const Array<double>& array) {
   return Eigen::Map<const Points>(array.data(), array.shape(0), array.shape(1));
 }
 
-/// Read-only, over what `owner` has.
+/// Returns a read-only array that refers to memory of `owner`, without a copy.
 template <class T>
 py::array_t<T> view(const T* data, std::vector<py::ssize_t> shape, const py::handle& owner) {
   py::array_t<T> array(std::move(shape), data, owner);
@@ -49,7 +49,7 @@ inline py::array_t<double> view(const Points& points, const py::handle& owner) {
   return view(points.data(), {points.rows(), points.cols()}, owner);
 }
 
-/// Python owns it from now on.
+/// Moves a value to memory that Python owns: returns a pointer to it, and the object that deletes it.
 template <class T>
 std::pair<T*, py::capsule> kept(T&& value) {
   auto owned = std::make_unique<T>();
@@ -67,7 +67,7 @@ inline py::array_t<double> array(Points&& points) {
   return py::array_t<double>({all->rows(), all->cols()}, all->data(), owner);
 }
 
-/// (weights, columns, starts of rows, (rows, columns)): what SciPy's csr_array is made of.
+/// Returns a matrix as the arguments of SciPy's csr_array: (weights, columns, starts of rows, (rows, columns)).
 inline py::tuple csr(SparseMatrix&& matrix) {
   matrix.makeCompressed();
   auto [all, owner] = kept(std::move(matrix));
@@ -78,7 +78,7 @@ inline py::tuple csr(SparseMatrix&& matrix) {
                         py::make_tuple(all->rows(), all->cols()));
 }
 
-/// Returns the first row in which one of these has a number that is none; nothing if all are finite.
+/// Returns the first row that is not finite of the first of `parts` that has one; absent if all are finite.
 inline std::optional<Eigen::Index> first_infinite_row(std::initializer_list<const Points*> parts) {
   for (const Points* part : parts) {
     if (part->allFinite()) continue;

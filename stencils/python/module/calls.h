@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How the library is called: without Python's lock, with Ctrl-C looked for, and with no more threads than were asked
-// for.
+// Scopes in which the library is called: Python's lock is released, Ctrl-C is checked, and the number of
+// threads is limited.
 #include <pybind11/pybind11.h>
 #include <tbb/global_control.h>
 
@@ -12,7 +12,8 @@
 
 namespace sublimit::python {
 
-/// Raises what a signal's handler raises: Python calls handlers on its main thread alone.
+/// Runs the handlers of pending signals, and raises their exceptions (KeyboardInterrupt). Checks every 50 ms at
+/// most; Python runs handlers on its main thread only.
 inline void check_signals() {
   using Clock = std::chrono::steady_clock;
   static thread_local Clock::time_point last;
@@ -23,7 +24,7 @@ inline void check_signals() {
   if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
 }
 
-/// Holds what is called to so many threads, as the program's --threads does; 0: all.
+/// Scope that limits the number of threads, as the program's --threads does; 0: all.
 class Threads {
  public:
   explicit Threads(int count) {
@@ -34,7 +35,7 @@ class Threads {
   std::optional<tbb::global_control> control_;
 };
 
-/// Around every call that may take long.
+/// Scope for calls that may take long: releases Python's lock and makes them interruptible.
 struct LongCall {
   pybind11::gil_scoped_release no_gil{};
   InterruptionScope signals{check_signals};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Names of faces as Python has them: one for each face, empty where it has none. They are bytes: files may have others
-// than UTF-8.
+// Names of faces in Python: one for each face, empty if it has none. They are bytes, since names in files need
+// not be UTF-8.
 #include <pybind11/pybind11.h>
 
 #include <map>
@@ -12,7 +12,8 @@
 
 namespace sublimit::python {
 
-/// @param names  one for each face; none: no face has one
+/// Returns the names of a mesh's faces.
+/// @param names  one name for each face; empty: no face has a name
 inline Mesh::FaceNames face_names(const std::vector<std::string>& names) {
   Mesh::FaceNames all;
   std::map<std::string, Index> known;
@@ -24,7 +25,7 @@ inline Mesh::FaceNames face_names(const std::vector<std::string>& names) {
   return all;
 }
 
-/// Returns one name for each face; none if no face has one.
+/// Returns one name for each face; an empty list if no face has one.
 inline pybind11::list names_by_face(const Mesh::FaceNames& names) {
   pybind11::list all;
   for (const Index name : names.of_face) all.append(pybind11::bytes(name < 0 ? "" : names.names[size_t(name)]));

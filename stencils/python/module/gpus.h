@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Tables on GPUs, where the module has its part for these.
+// Tables on GPUs, for modules that are built with the GPU part.
 #include <map>
 #include <memory>
 #include <mutex>
@@ -17,15 +17,16 @@ class GpuEvaluator;
 
 namespace sublimit::python {
 
-/// A table on the GPUs that it was applied on, by their numbers: uploaded when it is first applied there, and kept.
-/// Used by any number of threads, without Python's lock.
+/// A table with its copies on GPUs. It is uploaded to a GPU when it is first applied there, and kept. Any
+/// number of threads may use it; Python's lock is not needed.
 template <class Real>
 class TableOnGpus {
  public:
-  /// @param table  which must stay
+  /// @param table  must outlive this
   explicit TableOnGpus(const PatternTable<Real>& table) : table_(table) {}
   explicit TableOnGpus(const PatternTable<Real>&&) = delete;
-  /// @throws InvalidOption  there is no such GPU, with what is missing and how to do without
+  /// Applies the table, or its transpose, on a GPU.
+  /// @throws InvalidOption  no such GPU; the message has what is missing and an alternative
   /// @throws ResourceError, IoError, InvalidParameter  as `GpuEvaluator`
   void apply(const Evaluation<Real>& evaluation, int gpu) const;
   void apply_transpose(std::span<const Real> values, int channels, std::span<Real> result, int gpu) const;
@@ -35,7 +36,8 @@ class TableOnGpus {
     std::shared_ptr<const GpuDevice> device;
     std::shared_ptr<const GpuEvaluator> evaluator;
   };
-  /// Calls call(evaluator); a device that is lost meanwhile is forgotten, so that the next call opens it again.
+  /// Calls call(evaluator). If the device is lost meanwhile, it is dropped, so that the next call opens it
+  /// again.
   template <class Call>
   void on(int gpu, const Call& call) const;
 
@@ -44,7 +46,7 @@ class TableOnGpus {
   mutable std::map<int, Uploaded> uploaded_;
 };
 
-/// GPUs apply tables in float alone.
+/// Tables in double, which GPUs do not apply: all functions throw.
 template <>
 class TableOnGpus<double> {
  public:

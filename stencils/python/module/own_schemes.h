@@ -10,7 +10,7 @@
 
 namespace sublimit::python {
 
-/// In the two numbers that there are.
+/// A scheme instantiated for doubles and for exact numbers.
 struct OwnScheme {
   std::shared_ptr<const Scheme<double>> scheme;
   std::shared_ptr<const Scheme<Algebraic>> exact;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What masks written in Python see of the library's: stencils and sites, of floats or exact numbers, in one class each.
+// Stencils and sites for masks that are written in Python: one class each, for doubles and for exact numbers.
 #include <pybind11/pybind11.h>
 
 #include <functional>
@@ -18,8 +18,8 @@ namespace sublimit::python {
 
 namespace py = pybind11;
 
-/// An exact number from int, Fraction or Algebraic; nothing of anything else.
-/// @throws TypeError  a float, which would be taken for the number that it is near to
+/// Returns the exact number of an int, Fraction or Algebraic; absent for other objects.
+/// @throws TypeError  a float: it is not exactly the number that is meant
 inline std::optional<Algebraic> exact_number(const py::handle& x) {
   if (py::isinstance<Algebraic>(x)) return x.cast<Algebraic>();
   if (PyFloat_Check(x.ptr()))
@@ -42,12 +42,12 @@ std::optional<T> number(const py::handle& x) {
   }
 }
 
-/// A sum of points with weights.
+/// A weighted sum of points, in either number type.
 struct AnyStencil {
   std::variant<Stencil<double>, Stencil<Algebraic>> sum;
 };
 
-/// A site for the time of a mask's call; parts of it end with it.
+/// State of the call of a mask. Sites and their parts are valid only until it is over.
 struct MaskCall {
   int level = 0;  ///< modulo the scheme's period
   bool over = false;
@@ -58,19 +58,20 @@ class Seen {
   template <class T>
   Seen(Site<T> site, std::shared_ptr<const MaskCall> call) : site_(std::move(site)), call_(std::move(call)) {}
 
-  /// seen(site) in its number type.
+  /// Returns seen(site) with the site in its number type.
+  /// @throws InvalidParameter  the mask's call is over
   template <class See>
   auto see(const See& seen) const {
     if (call_->over)
       throw InvalidParameter("a site is known while its mask is called; this one has been kept from another call");
     return std::visit(seen, site_);
   }
-  /// A stencil of it.
+  /// Returns the stencil point(site).
   template <class Point>
   AnyStencil point(const Point& point) const {
     return see([&](const auto& site) { return AnyStencil{point(site)}; });
   }
-  /// Another site that is part of it.
+  /// Returns the site find(site), a part of this one.
   template <template <class> class Part, class Find>
   Seen<Part> part(const Find& find) const {
     return see([&](const auto& site) { return Seen<Part>(find(site), call_); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Surfaces with their control points: what places are evaluated on, whatever it is.
+// Surfaces with their control points, as one interface for evaluation and search.
 #include <memory>
 #include <span>
 #include <utility>
@@ -23,7 +23,7 @@ class Source {
   virtual ClosestPoints closest(const Points& queries, const ClosestPointOptions& options) const = 0;
   virtual RayHits intersect(const std::vector<Ray>& rays, const RayOptions& options) const = 0;
 
-  /// @param places  on its faces
+  /// Evaluates places on faces of the surface, with derivatives up to `order` and normals.
   LimitSamples evaluate(std::span<const Place> places, int order) const {
     LimitSamples samples;
     bound().evaluate(places, order, true, samples);
@@ -60,7 +60,7 @@ class Surface : public Source {
   LimitSurface surface_;
 };
 
-/// Classical surfaces of a file. Columns are points, or homogeneous.
+/// Classical surfaces of a file. Their points are plain or homogeneous.
 class PatchSurfaces : public Source {
  public:
   explicit PatchSurfaces(Patches patches) : patches_(std::move(patches)) {}

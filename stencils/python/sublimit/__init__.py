@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Subdivision as sparse matrices, and the exact limit surface anywhere.
+"""Subdivision surfaces and curves: refined meshes, the sparse matrices that refine, and exact limits at any place.
 
 >>> import sublimit
 >>> cube = sublimit.Mesh(
@@ -87,7 +87,8 @@ if TYPE_CHECKING:
     from ._tables import bake as bake
     from ._tables import load as load
 
-# Where each name is. Parts are loaded when they are first asked for: NumPy alone takes longer to load than all of this.
+# Modules and their public names. A module is imported when one of its names is first used: importing NumPy alone takes longer
+# than importing this file.
 _PARTS = {
     "_sublimit": ("__version__", "CreaseEdgeSite", "CreaseSite", "EdgeSite", "FaceSite", "Ring", "Stencil", "WideEdgeSite",
                   "WideFaceSite", "version"),
@@ -112,7 +113,7 @@ __all__ = sorted(_PLACE)
 
 
 def __getattr__(name: str) -> object:
-    if name == "torch":  # needs PyTorch, which nothing else does
+    if name == "torch":  # the only module that needs PyTorch
         import importlib
 
         return importlib.import_module(f"{__name__}.torch")

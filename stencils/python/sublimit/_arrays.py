@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arguments as arrays of the types and shapes that the compiled part takes: what is one already is not copied."""
+"""Converts arguments to arrays of the types and shapes that the compiled part takes. Arrays that fit are not copied."""
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -16,11 +16,18 @@ Ints = npt.NDArray[np.int32]
 
 
 def of_others(values: Any) -> Any:
-    """Arrays of other packages that say where they are (DLPack), looked at there."""
+    """Returns an array of another package (DLPack) as a NumPy array of the same memory, and anything else as it is."""
     return np.from_dlpack(values) if hasattr(values, "__dlpack__") and not isinstance(values, np.ndarray) else values
 
 
-def _array(values: Any, name: str) -> npt.NDArray[Any]:
+def any_array(values: Any, name: str) -> npt.NDArray[Any]:
+    """Returns an array of any shape and type, without a copy if it is one.
+
+    Raises
+    ------
+    InvalidParameter
+        Rows of different lengths, objects, masked entries.
+    """
     values = of_others(values)
     if isinstance(values, np.ma.MaskedArray):
         if np.any(values.mask):
@@ -42,16 +49,24 @@ def _shape(array: npt.NDArray[Any], name: str, shape: tuple[int | None, ...], wh
 
 
 def floats(values: Any, name: str, shape: tuple[int | None, ...], what: str, *, finite: bool = True) -> Floats:
-    """Real numbers in double, rows one after the other.
+    """Returns real numbers as a C-contiguous array of float64.
 
     Parameters
     ----------
-    shape : of each axis its length, None for any
-    what : the shape in words, for errors
+    values : array of any real type, or nested lists
+    name : name of the argument, for messages
+    shape : required length of each axis, None for any
+    what : required shape in words, for messages
+    finite : refuse NaN and infinity (default)
+
+    Raises
+    ------
+    InvalidParameter
+        An array of another shape or type, with masked entries or, if `finite`, with NaN or infinity.
     """
-    array = _array(values, name)
+    array = any_array(values, name)
     if array.size == 0 and array.ndim == 1 and len(shape) > 1:
-        array = array.reshape((0, *(n or 0 for n in shape[1:])))  # of an empty list nobody knows how wide it is
+        array = array.reshape((0, *(n or 0 for n in shape[1:])))  # an empty list has no number of columns
     if array.dtype.kind not in "fiu":
         raise InvalidParameter(f"{name} has dtype {array.dtype}; real numbers are right")
     _shape(array, name, shape, what)
@@ -63,8 +78,14 @@ def floats(values: Any, name: str, shape: tuple[int | None, ...], what: str, *, 
 
 
 def ints(values: Any, name: str, shape: tuple[int | None, ...], what: str) -> Ints:
-    """Whole numbers in 32 bits, rows one after the other; of any integer type."""
-    array = _array(values, name)
+    """Returns integers of any type as a C-contiguous array of int32. The parameters are those of `floats`.
+
+    Raises
+    ------
+    InvalidParameter
+        An array of another shape or type, with masked entries, or with numbers beyond 32 bits.
+    """
+    array = any_array(values, name)
     if array.size == 0:
         array = array.astype(np.int32)
         if array.ndim == 1 and len(shape) > 1:
@@ -81,11 +102,22 @@ def ints(values: Any, name: str, shape: tuple[int | None, ...], what: str) -> In
 
 
 def faces(values: Any, name: str = "faces") -> tuple[Ints, Ints]:
-    """Sizes and corners of faces: of an array (n, 3) or (n, 4), of a list of lists, of (sizes, corners)."""
+    """Returns the sizes and the corners of faces, two arrays of int32.
+
+    Parameters
+    ----------
+    values : array (faces, corners of each), list of lists, or ``(sizes, corners)``
+    name : name of the argument, for messages
+
+    Raises
+    ------
+    InvalidParameter
+        An array of another shape or type, or with numbers beyond 32 bits.
+    """
     values = of_others(values)
     if isinstance(values, tuple) and len(values) == 2:
         sizes, corners = (np.asarray(part) if _is_flat(part) else None for part in values)
-        # Two triangles are a tuple of two as well.
+        # A tuple of two may also be a list of two faces.
         certain = all(isinstance(part, np.ndarray) for part in values)
         if sizes is not None and corners is not None and (certain or (sizes.sum() == len(corners) and (sizes >= 3).all())):
             return ints(sizes, f"{name}[0]", (None,), "(faces,)"), ints(corners, f"{name}[1]", (None,), "(corners,)")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Classical curves and surfaces by recipes."""
+"""Classical curves and surfaces from recipes."""
 from __future__ import annotations
 
 import json
@@ -16,16 +16,16 @@ from ._errors import InvalidParameter
 from ._patches import Patches
 
 Recipe = Union[str, "os.PathLike[str]", Mapping[str, Any]]
-"""A path, the text of a JSON object, or the object as a dictionary."""
+"""A recipe: the path of a file, the text of a JSON object, or such an object as a dictionary."""
 
 
 class Construction:
-    """What recipes make; `construct` makes it. It never changes.
+    """Curves and surfaces made from recipes, or read from a free-form .obj. `construct` makes it. It never changes.
 
     Attributes
     ----------
-    names : of each recipe, or element of an .obj, as messages name it
-    notes : what was accepted, but should be known
+    names : list of str, the name of each recipe, or of each element of the .obj, as in messages
+    notes : list of str, warnings about accepted input
     """
 
     __module__ = "sublimit"
@@ -46,39 +46,48 @@ class Construction:
         return construction
 
     def surfaces(self) -> Patches:
-        """All surfaces as one.
-
-        Raises
-        ------
-        UnsupportedTopology, InvalidMesh
-            There are none; triangles beside squares.
-        """
-        return Patches._of(self._core.surfaces())
-
-    def curves(self) -> Curves:
-        """All curves as one.
-
-        Raises
-        ------
-        UnsupportedTopology, InvalidMesh
-            There are none.
-        """
-        return Curves._of(self._core.curves())
-
-    def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes the exact nets as free-form .obj: ``bezier``, ``bspline``, ``rat`` where rational. The file appears whole or not
-        at all.
+        """Returns all surfaces as one set of patches.
 
         Raises
         ------
         UnsupportedTopology
-            A curve or surface without an exact net, or with one that OBJ cannot hold: which, and why.
+            There are none, or there are triangular patches besides others.
+        InvalidMesh
+            The product of a coordinate and its weight overflows.
+        """
+        return Patches._of(self._core.surfaces())
+
+    def curves(self) -> Curves:
+        """Returns all curves as one set of curves.
+
+        Raises
+        ------
+        UnsupportedTopology
+            There are none.
+        InvalidMesh
+            The product of a coordinate and its weight overflows.
+        """
+        return Curves._of(self._core.curves())
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes the exact control nets as free-form .obj: ``bezier``, ``bspline``, with ``rat`` if rational.
+
+        The file appears whole or not at all.
+
+        Parameters
+        ----------
+        path : path that ends in .obj
+
+        Raises
+        ------
+        UnsupportedTopology
+            A curve or surface has no exact net, or one that OBJ cannot hold; the message says which and why.
         InvalidOption
-            Another extension.
+            Another extension than .obj.
         IoError
-            Unwritable.
+            The file cannot be written.
         ResourceError
-            A full disk.
+            The disk is full.
         """
         self._core.write(os.fspath(path))
 
@@ -90,23 +99,25 @@ class Construction:
 
 
 def construct(recipe: Recipe) -> Construction:
-    """The curves and surfaces of a recipe, as ``sublimit construct --help`` describes them, or of a free-form .obj.
+    """Makes the curves and surfaces of a recipe or of a free-form .obj. ``sublimit construct --help`` describes recipes.
 
     Parameters
     ----------
-    recipe : a path, .json or free-form .obj; or the JSON itself, a str that begins with ``{``; or a dictionary
-        Numbers of a dictionary may be Fraction, which stays exact, and arrays of NumPy.
+    recipe : path of a .json or a free-form .obj; or the JSON itself, a str that begins with ``{``; or a dictionary
+        Numbers in a dictionary may also be Fraction, which stays exact, and NumPy arrays.
 
     Raises
     ------
     FormatError
-        What cannot be understood: names recipe and field, and says what would be right.
+        The recipe cannot be parsed; the message names recipe and field, and what would be right.
     InvalidMesh
-        Curves that do not meet where they must, with the gap.
+        Curves do not meet where they must; the message has the gap.
     IoError
-        Missing, unreadable.
-    ValueError, TypeError
-        A dictionary with NaN or infinite numbers, or with what is no JSON.
+        The file is missing or unreadable.
+    InvalidParameter
+        A dictionary has NaN or infinite numbers.
+    TypeError
+        The recipe is of another type, or a dictionary has a value that JSON cannot hold.
 
     Examples
     --------
@@ -121,11 +132,17 @@ def construct(recipe: Recipe) -> Construction:
 
 
 def recipe_bytes(recipe: Recipe, name: str) -> bytes:
-    """A path, or JSON, as the compiled part takes it."""
+    """Returns a recipe as the compiled part takes it: the bytes of its path or of its JSON.
+
+    Parameters
+    ----------
+    recipe : path, text of a JSON object, or dictionary
+    name : name of the argument, for messages
+    """
     if isinstance(recipe, Mapping):
         try:
             return json.dumps(dict(recipe), allow_nan=False, default=_plain).encode()
-        except ValueError as error:  # JSON has no numbers that are not finite
+        except ValueError as error:  # JSON has neither NaN nor infinity
             what = "a number that is not finite" if "JSON compliant" in str(error) else str(error)
             raise InvalidParameter(f"{name} has {what}") from None
         except TypeError as error:
@@ -139,7 +156,7 @@ def recipe_bytes(recipe: Recipe, name: str) -> bytes:
 
 
 def _plain(value: Any) -> Any:
-    """What JSON has for it."""
+    """Returns a value of another type as one that the json module can write; for ``json.dumps(default=...)``."""
     if isinstance(value, Mapping):
         return dict(value)
     if isinstance(value, Fraction):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limit curves, and classical curves."""
+"""Limit curves of polygons, and classical curves."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, NoReturn
@@ -19,47 +19,82 @@ if TYPE_CHECKING:
 
 
 class CurveSamples(SampledParts):
-    """What there is at places of a curve. What does not exist is zero; `order` and `status` say what does.
+    """Points, derivatives and normals at places of a curve, in arrays whose first axes are those of the places.
+
+    Quantities that do not exist at a place are zero; `order` and `status` say which exist.
 
     Attributes
     ----------
-    points : (..., dimension)
-    first, second : (..., dimension), derivatives per edge of the control polygon, of classical curves by t; AttributeError if
-        they were not asked for
-    normals : (..., dimension), of length one: in the plane to the left, in space towards the centre of curvature
-    status : (...), numbers; ``statuses[number]`` is the word
-    order : (...), derivatives that there are
+    points : (..., dimension), positions
+    first, second : (..., dimension), derivatives: of limit curves per edge of the control polygon, of classical curves per unit
+        of t. AttributeError if `evaluate` was called with fewer derivatives
+    normals : (..., dimension), unit normals: in the plane to the left of the first derivative, in space towards the centre of
+        curvature. AttributeError if `evaluate` was called without derivatives
+    status : (...), int8; ``statuses[number]`` is its name
+    order : (...), int8, number of derivatives that exist: 0, 1 or 2
     """
 
     __module__ = "sublimit"
 
     @property
     def first(self) -> arrays.Floats:
-        """(..., dimension): first derivatives."""
+        """First derivatives, (..., dimension).
+
+        Raises
+        ------
+        AttributeError
+            `evaluate` was called without derivatives.
+        """
         return self._part("first", 1)
 
     @property
     def second(self) -> arrays.Floats:
-        """(..., dimension): second derivatives."""
+        """Second derivatives, (..., dimension).
+
+        Raises
+        ------
+        AttributeError
+            `evaluate` was called with fewer than 2 derivatives.
+        """
         return self._part("second", 2)
 
     @property
     def normals(self) -> arrays.Floats:
-        """(..., dimension): unit normals."""
+        """Unit normals, (..., dimension); zero where undefined.
+
+        Raises
+        ------
+        AttributeError
+            `evaluate` was called without derivatives.
+        """
         return self._part("normals", 1)
 
 
 class LimitCurve:
-    """The limit of a polygon under a linear scheme of curves. It never changes; threads may share it.
+    """The limit curve of a polygon under a linear curve scheme. It never changes: threads may share it.
 
-    Segment i goes from point i, t = 0, to point i + 1, t = 1; a closed curve has one from the last point to the first.
+    Segment i goes from point i, t = 0, to point i + 1, t = 1. The last segment of a closed curve goes from the last point to
+    the first.
 
     Parameters
     ----------
-    points : (points, dimension)
-    scheme : a name, as in `schemes`, or what `scheme` makes
-    closed : whether the last point is joined to the first
-    tangents : (points, dimension), for Hermite schemes
+    points : (points, dimension), real numbers
+    scheme : name of a curve scheme, as in `schemes`, or a result of `scheme`
+    closed : join the last point to the first (default: False)
+    tangents : (points, dimension), derivative at each point per edge of the polygon; for Hermite schemes, which need it
+
+    Raises
+    ------
+    InvalidParameter
+        An array of another shape or type; NaN and infinite numbers.
+    InvalidOption
+        No linear curve scheme has this name.
+    InvalidMesh
+        A Hermite scheme without tangents.
+    UnsupportedTopology
+        Too few points for the scheme.
+    AnalysisError
+        The scheme has no limit.
 
     Examples
     --------
@@ -83,24 +118,50 @@ class LimitCurve:
 
     @property
     def num_segments(self) -> int:
-        """Segments of the curve: edges of the polygon."""
+        """Number of segments: one for each edge of the polygon."""
         return self._core.num_segments
 
     def evaluate(self, segment: npt.ArrayLike, t: npt.ArrayLike, derivatives: int = 0, *, threads: int = 0) -> CurveSamples:
-        """Points of the curve, exact to rounding.
+        """Evaluates places of the curve, exactly up to rounding.
 
         Parameters
         ----------
-        segment, t : arrays that broadcast to one shape
-        derivatives : 0, 1 or 2
+        segment, t : integers, and numbers in [0, 1]; arrays that broadcast to one shape
+        derivatives : number of derivatives: 0, 1 or 2
+        threads : largest number of threads (default: all)
+
+        Returns
+        -------
+        CurveSamples, of the broadcast shape
+
+        Raises
+        ------
+        InvalidParameter
+            A segment that does not exist, t outside [0, 1] or not finite.
+        InvalidMesh
+            A point or a derivative overflows (1.8e308).
         """
         segments, at, shape = _places(segment, t)
         return CurveSamples(self._core.evaluate(segments, at, order(derivatives), threads), shape)
 
     def stencils(self, segment: npt.ArrayLike, t: npt.ArrayLike, derivatives: int = 0) -> list[csr_array]:
-        """What `evaluate` multiplies the points with: position, first and second derivative; a row for each place.
+        """Returns the weights that `evaluate` multiplies the points with, a row for each place of the flattened arrays.
 
-        Columns are the points; in Hermite schemes 2i is point i, and 2i + 1 its tangent.
+        Parameters
+        ----------
+        segment, t : integers, and numbers in [0, 1]; arrays that broadcast to one shape
+        derivatives : number of derivatives: 0, 1 or 2
+
+        Returns
+        -------
+        list of scipy.sparse.csr_array, (places, points)
+            Matrices of the position, the first and the second derivative, as far as asked for. Rows of derivatives that do not
+            exist are empty. For Hermite schemes column 2i belongs to point i, and column 2i + 1 to its tangent.
+
+        Raises
+        ------
+        InvalidParameter
+            A segment that does not exist, t outside [0, 1] or not finite.
         """
         segments, at, _ = _places(segment, t)
         return [csr(parts) for parts in self._core.stencils(segments, at, order(derivatives))]
@@ -113,10 +174,10 @@ class LimitCurve:
 
 
 class Curves:
-    """Classical curves as one: the segments (spans of knots) of one curve after the other. They never change.
+    """A set of classical curves. `Construction.curves` makes it. It never changes: threads may share it.
 
-    `Construction.curves` makes them. Places are (segment, t), with t in [0, 1] from one knot to the next; derivatives are by
-    this t.
+    Segments are the knot spans of all curves, curve by curve. Places are (segment, t), with t in [0, 1] from one knot to the
+    next; derivatives are per unit of this t.
 
     Examples
     --------
@@ -141,46 +202,49 @@ class Curves:
 
     @property
     def points(self) -> arrays.Floats:
-        """(control points, dimension); of rational curves a column more, homogeneous: (w x, ..., w). Read-only."""
+        """Control points, (control points, dimension); if `rational`, with one more column: (w x, ..., w). Read-only."""
         return self._core.columns
 
     @property
     def weights(self) -> arrays.Floats | None:
-        """(control points,): the weights of rational curves, the last column of `points`; None of others."""
+        """Weights of rational curves, (control points,): the last column of `points`. None if they are not rational."""
         return self._core.columns[:, -1] if self._core.rational else None
 
     @property
     def rational(self) -> bool:
-        """Whether points are homogeneous."""
+        """True if `points` are homogeneous."""
         return self._core.rational
 
     @property
     def num_curves(self) -> int:
-        """Curves."""
+        """Number of curves."""
         return self._core.num_curves
 
     @property
     def num_segments(self) -> int:
-        """Segments of all curves."""
+        """Number of segments of all curves: one for each span of knots."""
         return self._core.num_segments
 
     def evaluate(self, segment: npt.ArrayLike, t: npt.ArrayLike, derivatives: int = 0, *, threads: int = 0) -> CurveSamples:
-        """Points of the curves, exact to rounding.
+        """Evaluates places of the curves, exactly up to rounding.
 
         Parameters
         ----------
-        segment, t : arrays that broadcast to one shape
-        derivatives : 0, 1 or 2
+        segment, t : integers, and numbers in [0, 1]; arrays that broadcast to one shape
+        derivatives : number of derivatives: 0, 1 or 2
+        threads : largest number of threads (default: all)
 
         Returns
         -------
         CurveSamples, of the broadcast shape
-            A place where the weight is 0 has the status ``pole`` and nothing else.
+            At a place where the weight is 0 the status is ``pole`` and all numbers are zero.
 
         Raises
         ------
         InvalidParameter
-            A segment that there is not, t outside [0, 1] or not finite.
+            A segment that does not exist, t outside [0, 1] or not finite.
+        InvalidMesh
+            A point or a derivative overflows (1.8e308).
         """
         segments, at, shape = _places(segment, t)
         return CurveSamples(self._core.evaluate(segments, at, order(derivatives), threads), shape)
@@ -193,11 +257,29 @@ class Curves:
 
 
 def refine_curve(points: npt.ArrayLike, scheme: Scheme | str, levels: int = 1, *, closed: bool = False) -> arrays.Floats:
-    """Points of a level of a polygon, in order.
+    """Returns the points of a refined polygon, in order along the curve.
 
     Parameters
     ----------
-    points : (points, dimension)
+    points : (points, dimension), real numbers
+    scheme : name of a linear curve scheme, as in `schemes`, or a result of `scheme`
+    levels : number of refinements, 0 or more (default: 1)
+    closed : join the last point to the first (default: False)
+
+    Returns
+    -------
+    (points of the level, dimension)
+
+    Raises
+    ------
+    InvalidParameter
+        An array of another shape or type; NaN and infinite numbers; negative levels.
+    InvalidOption
+        No linear curve scheme has this name.
+    InvalidMesh
+        A Hermite scheme, which needs tangents.
+    UnsupportedTopology
+        Too few points for the scheme.
     """
     own = curve_scheme(scheme)
     return _sublimit.refine_curve(arrays.floats(points, "points", (None, None), "(points, dimension)"), own.name,

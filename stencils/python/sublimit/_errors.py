@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What goes wrong, with a message that says what, where, and what would be right."""
+"""Errors and warnings. Messages of errors say what is wrong, where, and what would be right."""
 from __future__ import annotations
 
 
 class Error(Exception):
-    """Base of all errors of this package.
+    """Base class of all errors of sublimit.
 
     Attributes
     ----------
     code : str
-        ``invalid_mesh``, ``io_error``, ...: the same codes as in C++ and C.
+        Kind of the error, the same word as in C++ and C: ``invalid_mesh``, ``io_error``, ...
     """
 
     code: str = ""
@@ -17,66 +17,66 @@ class Error(Exception):
 
 
 class InvalidMesh(Error, ValueError):
-    """Connectivity or positions that no scheme could take: an index out of range, a face with two corners."""
+    """Raised for connectivity or positions that no scheme can take: an index out of range, a face with two corners."""
 
     code = "invalid_mesh"
     __module__ = "sublimit"
 
 
 class UnsupportedTopology(Error, ValueError):
-    """A valid mesh that this scheme cannot take: a quadrilateral given to Loop."""
+    """Raised for a valid mesh that this scheme cannot take: a quadrilateral given to Loop."""
 
     code = "unsupported_topology"
     __module__ = "sublimit"
 
 
 class InvalidOption(Error, ValueError):
-    """An unknown scheme, an unknown option or a value outside its range."""
+    """Raised for an unknown scheme, an unknown option, or a value of an option outside its range."""
 
     code = "invalid_option"
     __module__ = "sublimit"
 
 
 class InvalidParameter(Error, ValueError):
-    """An argument outside its range: a negative level."""
+    """Raised for an argument outside its range: a negative level, an array of the wrong shape."""
 
     code = "invalid_parameter"
     __module__ = "sublimit"
 
 
 class FormatError(Error, ValueError):
-    """A file that cannot be understood; the message starts with file:line where there is one."""
+    """Raised for a file that cannot be parsed. For text files the message starts with file:line."""
 
     code = "format_error"
     __module__ = "sublimit"
 
 
 class AnalysisError(Error, ArithmeticError):
-    """A local matrix whose spectrum has no limit."""
+    """Raised for a local matrix whose powers have no limit: eigenvalue 1 is not simple and dominant."""
 
     code = "analysis_error"
     __module__ = "sublimit"
 
 
 class IoError(Error, OSError):
-    """A file that cannot be opened, read or written."""
+    """Raised for a file that cannot be opened, read or written, and for a GPU that is lost."""
 
     code = "io_error"
     __module__ = "sublimit"
 
 
 class ResourceError(Error, MemoryError):
-    """More memory, disk or 32-bit indices than there are, predicted or met."""
+    """Raised if memory, disk space or 32-bit indices do not suffice; often predicted before memory is taken."""
 
     code = "resource_error"
     __module__ = "sublimit"
 
 
 class MeshWarning(UserWarning):
-    """What a scheme accepts of a mesh but you should know: that it is no manifold, tags that are ignored.
+    """Warns of a mesh that is accepted with reservations: it is not a manifold, or some of its tags are ignored.
 
-    ``warnings.simplefilter("ignore", sublimit.MeshWarning)`` silences these; ``strict=True`` makes errors of those that name
-    what is no manifold.
+    Functions that take a mesh and a scheme issue it. ``warnings.simplefilter("ignore", sublimit.MeshWarning)`` silences it.
+    With ``strict=True`` these functions raise `InvalidMesh` for meshes that are not manifolds.
     """
 
     __module__ = "sublimit"
@@ -87,7 +87,12 @@ _TYPES = {t.code: t for t in (InvalidMesh, UnsupportedTopology, InvalidOption, I
 
 
 def by_code(number: int) -> type[Error]:
-    """The type of the compiled part's error of this number."""
+    """Returns the class of an error of the compiled part.
+
+    Parameters
+    ----------
+    number : number of its code in C++, an index into ``_sublimit.error_codes``
+    """
     from ._sublimit import error_codes
 
     return _TYPES[error_codes[number]]

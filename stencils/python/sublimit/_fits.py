@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Control points whose limit passes through points, or near to them."""
+"""Fits: control points whose limit passes through given points, or near them."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
@@ -19,16 +19,16 @@ from ._surfaces import places
 
 @dataclass(frozen=True)
 class Fit:
-    """A mesh whose limit passes through points.
+    """Result of `fit`: a mesh whose limit meets targets at vertices.
 
     Attributes
     ----------
-    mesh : the control mesh; refined where that was needed
-    solved : whether all conditions are met to rounding
-    why_not : if not, which vertices stand in the way, and what would be right
-    refinements : levels that were added
-    position_error : (targets,), distances
-    normal_error : (targets,), angles in radians; NaN without a normal
+    mesh : the fitted control mesh, refined `refinements` times
+    solved : True if all targets are met to rounding
+    why_not : which targets are not met, in words; empty if solved
+    refinements : number of refinements of the given mesh
+    position_error : (targets,), distance of each target from the limit
+    normal_error : (targets,), angle to the normal of each target, in radians; NaN for targets without a normal
     """
 
     __module__ = "sublimit"
@@ -42,15 +42,15 @@ class Fit:
 
 @dataclass(frozen=True)
 class FittedPoints:
-    """Control points of a best fit.
+    """Result of `fit_places` and `fit_cloud`: control points of a fit by least squares.
 
     Attributes
     ----------
-    points : (control points, channels)
-    residuals : (targets,), distances
-    rms, largest : of them: root of the weighted mean square, maximum
-    iterations : rms of the first guess and after each iteration; None of fits that are linear
-    converged : whether the last iteration changed less than the tolerance
+    points : (control points, 3)
+    residuals : (targets,), distance of each target from its point of the fitted limit
+    rms, largest : of the residuals: root of the weighted mean square, and maximum
+    iterations : (iterations + 1,), `rms` of the first guess, then after each iteration; None for `fit_places`, which is linear
+    converged : True if the energy became stationary to the tolerance; always True for `fit_places`
     """
 
     __module__ = "sublimit"
@@ -66,16 +66,28 @@ def fit(mesh: Mesh, scheme: Scheme | str, vertices: npt.ArrayLike, points: npt.A
         *, thin_plate: float = 0, membrane: float = 0, refinements: tuple[int, int] = (0, 2), boundary: str | None = None,
         creasing: str | None = None, triangles: str | None = None, option: Mapping[str, OptionValue] | None = None,
         triangulate: bool = False, no_creases: bool = False, strict: bool = False, threads: int = 0) -> Fit:
-    """A mesh whose limit has given vertices at given points, with given normals.
+    """Computes a mesh whose limit has given positions and normals at given vertices.
+
+    Boundary, creasing and the other keyword arguments that are not listed are those of `refine`.
 
     Parameters
     ----------
-    mesh : its points are the first guess
-    vertices : (targets,)
-    points : (targets, 3)
-    normals : (targets, 3), of any length; rows of NaN where there is none
-    thin_plate, membrane : weights of fairness; 0 and 0: nearest to the first guess
-    refinements : the fewest and the most levels that may be added to meet the conditions
+    mesh : the mesh to start from; its points are the first guess
+    scheme : name of a scheme, as in `schemes`, or a `Scheme`
+    vertices : (targets,), numbers of vertices of the mesh
+    points : (targets, 3), limit position of each of these vertices
+    normals : (targets, 3), normal of the limit at each, of any length; NaN in a row for no normal (default: none)
+    thin_plate, membrane : weights of fairness energies, >= 0 (default: 0, the result stays near the first guess)
+    refinements : least and largest number of refinements before the fit, each of which adds control points (default: (0, 2))
+        The least number that meets all targets is taken.
+
+    Raises
+    ------
+    InvalidParameter
+        No targets, a vertex that does not exist or has two targets; an array of another shape or type, NaN and infinite
+        numbers.
+    InvalidMesh, UnsupportedTopology
+        The scheme cannot refine the mesh; the message says where.
 
     Notes
     -----
@@ -93,7 +105,7 @@ def fit(mesh: Mesh, scheme: Scheme | str, vertices: npt.ArrayLike, points: npt.A
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
-    numbers = arrays.ints(np.asarray(vertices), "vertices", (None,), "(targets,)")
+    numbers = arrays.ints(vertices, "vertices", (None,), "(targets,)")
     where = arrays.floats(points, "points", (len(numbers), 3), f"({len(numbers)} targets, 3)")
     along = None if normals is None else arrays.floats(normals, "normals", (len(numbers), 3), f"({len(numbers)} targets, 3)",
                                                        finite=False)
@@ -109,16 +121,29 @@ def fit_places(mesh: Mesh, scheme: Scheme | str, face: npt.ArrayLike, u: npt.Arr
                pins: npt.ArrayLike | None = None, boundary: str | None = None, creasing: str | None = None,
                triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
                no_creases: bool = False, strict: bool = False, threads: int = 0) -> FittedPoints:
-    """Control points whose limit is nearest to points at given places, in the sense of least squares.
+    """Computes control points whose limit is as near as possible to given points at given places, by least squares.
+
+    Boundary, creasing and the other keyword arguments that are not listed are those of `refine`.
 
     Parameters
     ----------
-    mesh : its points are the first guess, which the result stays near to where the targets do not say
-    face, u, v : arrays that broadcast to (targets,)
-    points : (targets, 3)
-    weights : (targets,), of the squared distances
-    thin_plate, membrane : weights of fairness
-    pins : control points that stay
+    mesh : the control mesh; its points are the first guess, which decides what the targets leave free
+    scheme : name of a scheme, as in `schemes`, or a `Scheme`
+    face, u, v : places of the targets, as in `LimitSurface`; arrays that broadcast to (targets,)
+    points : (targets, 3), point that the limit should have at each place
+    weights : (targets,), weights >= 0 of the squared distances (default: all 1)
+    thin_plate, membrane : weights of fairness energies, >= 0 (default: 0)
+    pins : (pins,), numbers of control points that keep their positions (default: none)
+
+    Raises
+    ------
+    InvalidParameter
+        No targets, a place on no face or on a hole, a pin that is no vertex or is given twice, negative weights; an array of
+        another shape or type, NaN and infinite numbers.
+    InvalidMesh, UnsupportedTopology
+        The scheme cannot refine the mesh; the message says where.
+    ResourceError
+        More memory than there is.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
@@ -136,18 +161,30 @@ def fit_cloud(mesh: Mesh, scheme: Scheme | str, points: npt.ArrayLike, *, weight
               iterations: int = 50, tolerance: float = 1e-6, boundary: str | None = None, creasing: str | None = None,
               triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
               no_creases: bool = False, strict: bool = False, threads: int = 0) -> FittedPoints:
-    """Control points whose limit is near to points without order.
+    """Computes control points whose limit is near a cloud of points, by repeated projection and least squares.
+
+    Boundary, creasing and the other keyword arguments that are not listed are those of `refine`.
 
     Parameters
     ----------
-    mesh : its points are the first guess
-    points : (n, 3)
-    weights : (n,), of the squared distances
-    thin_plate, membrane : weights of fairness
-    schedule : factors of fairness, one an iteration; falling ones find the way from far off
-    pins : control points that stay
-    iterations : at most so many
-    tolerance : of the energy, relative to it: where it falls by less, the fit has converged
+    mesh : the control mesh; its points are the first guess
+    scheme : name of a scheme, as in `schemes`, or a `Scheme`
+    points : (n, 3), the cloud, in any order
+    weights : (n,), weights >= 0 of the squared distances (default: all 1)
+    thin_plate, membrane : weights of fairness energies, >= 0 (default: 0)
+    schedule : factors of fairness, one for each iteration; the last one is kept (default: 1)
+        A decreasing schedule converges from a distant first guess.
+    pins : (pins,), numbers of control points that keep their positions (default: none)
+    iterations : largest number of iterations (default: 50)
+    tolerance : the fit has converged when the energy decreases by less, relative to it (default: 1e-6)
+
+    Raises
+    ------
+    InvalidParameter
+        No points, a pin that is no vertex or is given twice, negative weights or factors; an array of another shape or type,
+        NaN and infinite numbers.
+    InvalidMesh, UnsupportedTopology
+        No face that is not a hole, or the scheme cannot refine the mesh; the message says where.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
@@ -164,4 +201,4 @@ def _weights(weights: Any, count: int) -> arrays.Floats | None:
 
 
 def _pins(pins: Any) -> arrays.Ints:
-    return arrays.ints([] if pins is None else np.asarray(pins), "pins", (None,), "(pins,)")
+    return arrays.ints([] if pins is None else pins, "pins", (None,), "(pins,)")

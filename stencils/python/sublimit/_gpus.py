@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""GPUs that tables are applied on."""
+"""GPUs of this machine that can apply tables."""
 from __future__ import annotations
 
 import re
@@ -11,17 +11,17 @@ from ._errors import InvalidOption
 
 @dataclass(frozen=True)
 class GpuInfo:
-    """A GPU that `Table.apply` takes.
+    """Properties of a GPU that can apply tables.
 
     Attributes
     ----------
-    device : ``"gpu:0"``, ``"gpu:1"``, ...: what `Table.apply` is to be given
-    name : as its driver has it
-    api : ``"Vulkan"`` or ``"CUDA"``
-    kind : ``"discrete"``, ``"integrated"``, ``"virtual"``, or ``"cpu"``: a processor that stands in for a GPU
-    memory : bytes
-    halves : results can be half floats, in programs in C++
-    driver : its name and version
+    device : ``"gpu:0"``, ``"gpu:1"``, ...: the argument `device` of `Table.apply`
+    name : name of the GPU, as reported by its driver
+    api : interface, ``"Vulkan"`` or ``"CUDA"``
+    kind : ``"discrete"``, ``"integrated"``, ``"virtual"``, or ``"cpu"`` for a CPU that emulates a GPU
+    memory : bytes of the largest heap on the device
+    halves : True if results can be half floats, which only the C++ interface makes
+    driver : name and version of the driver
     """
 
     __module__ = "sublimit"
@@ -35,10 +35,10 @@ class GpuInfo:
 
 
 def gpu_devices() -> list[GpuInfo]:
-    """GPUs of this machine that tables can be applied on, discrete ones first.
+    """Returns the GPUs of this machine that can apply tables, discrete ones first.
 
-    None where there is no driver, or where this module was built without its part for GPUs: `Table.apply` says what is
-    missing.
+    The list is empty if there is no driver, or if this module was built without its part for GPUs. The error that `Table.apply`
+    raises for ``device="gpu"`` says what is missing.
 
     Examples
     --------
@@ -50,7 +50,17 @@ def gpu_devices() -> list[GpuInfo]:
 
 
 def number_of(device: str) -> int | None:
-    """Of a GPU; None: the CPU."""
+    """Returns the number of a GPU, or None for the CPU.
+
+    Parameters
+    ----------
+    device : ``"cpu"``, ``"gpu"`` (GPU 0) or ``"gpu:N"``
+
+    Raises
+    ------
+    InvalidOption
+        Another word.
+    """
     if device == "cpu":
         return None
     found = re.fullmatch("gpu(?::([0-9]{1,4}))?", device) if isinstance(device, str) else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Refined meshes, their levels and matrices, and the limits of their vertices."""
+"""Refined meshes, their levels and matrices, and limits of their vertices."""
 from __future__ import annotations
 
 import operator
@@ -23,35 +23,41 @@ def refine(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str |
            triangles: str | None = None, face_varying: str | None = None, option: Mapping[str, OptionValue] | None = None,
            triangulate: bool = False, no_creases: bool = False, strict: bool = False, no_tags: bool = False,
            threads: int = 0, quiet: bool = False) -> Mesh:
-    """A finer mesh, with the tags that are left, so that refining it goes on where this stopped.
+    """Returns a level of a mesh, with its texture coordinates, and with the creases, corners and holes that are left on it.
+
+    Refining the result continues the refinement.
 
     Parameters
     ----------
     mesh : the control mesh
-    scheme : a name, as in `schemes`, or what `scheme` makes
-    levels : 0 or more
-    boundary : ``"none"``, ``"edge-only"`` or ``"edge-and-corner"`` (default: the mesh's, else edge-and-corner)
-    creasing : how sharpness decays, ``"uniform"`` or ``"chaikin"``
-    triangles : Catmull-Clark next to triangles, ``"catmark"`` or ``"smooth"``
-    face_varying : where texture coordinates are linear, by OpenSubdiv's names (default: ``"all"``)
-    option : options of the scheme by name
-    triangulate : first cut every face into triangles, a fan from its first corner
-    no_creases : first drop creases and corners
-    strict : refuse meshes that are no clean manifolds
-    no_tags : leave tags out
-    threads : at most so many (default: all)
-    quiet : no warnings, `MeshWarning`, of what is no manifold or left out
+    scheme : name of a scheme, as in `schemes`, or a `Scheme`
+    levels : number of refinements, 0 or more (default: 1)
+    boundary : rule for the boundary: ``"none"``, ``"edge-only"`` or ``"edge-and-corner"`` (default: the rule of the mesh, else
+        edge-and-corner)
+    creasing : decay of the sharpness of creases: ``"uniform"`` or ``"chaikin"`` (default: the rule of the mesh, else uniform)
+    triangles : weights of Catmull-Clark next to triangles: ``"catmark"`` or ``"smooth"`` (default: the rule of the mesh, else
+        catmark)
+    face_varying : where texture coordinates are linear, by OpenSubdiv's names (default: the rule of the mesh, else ``"all"``)
+    option : options of the scheme, {name: value}
+    triangulate : first cut every face into triangles, a fan from its first corner; tags are kept
+    no_creases : first drop the crease and corner tags
+    strict : raise InvalidMesh if the mesh is not a clean manifold
+    no_tags : leave the tags out of the result
+    threads : largest number of threads (default: all)
+    quiet : issue no `MeshWarning`
 
     Raises
     ------
     InvalidOption
-        A scheme, an option or a word that there is not.
+        An unknown scheme, option or word, or a value of an option outside its range.
     InvalidParameter
         Negative levels.
+    InvalidMesh
+        With `strict`, a mesh that is not a clean manifold; the message names each place.
     UnsupportedTopology
-        A face or a crease that the scheme cannot take.
+        A face or a crease that the scheme cannot take; the message says where.
     ResourceError
-        More memory than there is, predicted before it is taken.
+        Not enough memory, predicted before it is taken.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, face_varying=face_varying, option=option,
                     triangulate=triangulate, no_creases=no_creases, strict=strict)
@@ -67,11 +73,11 @@ class Level:
 
     Attributes
     ----------
-    number : 0 of the control mesh, then 1, 2, ...
-    S : scipy.sparse.csr_array, (vertices of the level, vertices of the level before): points = S @ points of that one. (0, 0)
-        of level 0. Its arrays are the library's, not copies
-    faces : ``(sizes, corners)``
-    holes : faces that are no part of the surface
+    number : number of the level, 0 for the control mesh
+    S : scipy.sparse.csr_array, (vertices of the level, vertices of the previous level), (0, 0) for level 0
+        Points of the level are S @ points of the previous level. Its arrays are memory of the library, not copies.
+    faces : ``(sizes, corners)``: number of corners of each face, and the vertices of all faces, face by face
+    holes : (holes,), numbers of faces that are not part of the surface
     """
 
     __module__ = "sublimit"
@@ -87,9 +93,9 @@ class Level:
 def levels(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str | None = None, creasing: str | None = None,
            triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
            no_creases: bool = False, strict: bool = False, threads: int = 0) -> list[Level]:
-    """Levels 0 to `levels` of a mesh, each with the matrix that makes its points from those of the level before.
+    """Returns levels 0 to `levels` of a mesh, each with the matrix that makes its points from those of the previous level.
 
-    The parameters are those of `refine`, and so are the errors. `subdivision_matrix` is the product of the matrices.
+    Parameters and errors are those of `refine`. `subdivision_matrix` returns the product of the matrices.
 
     Examples
     --------
@@ -112,14 +118,14 @@ def subdivision_matrix(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, bou
                        creasing: str | None = None, triangles: str | None = None,
                        option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
                        strict: bool = False, threads: int = 0) -> csr_array:
-    """The points of a level as a matrix times the control points.
+    """Returns the matrix that makes the points of a level from the control points.
 
-    Row i is the stencil of vertex i of ``refine(mesh, scheme, levels)``. The parameters are those of `refine`.
+    Row i is the stencil of vertex i of ``refine(mesh, scheme, levels)``. Parameters and errors are those of `refine`.
 
     Returns
     -------
     scipy.sparse.csr_array, (vertices of the level, control points)
-        Its arrays are the library's, not copies.
+        Its arrays are memory of the library, not copies.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
@@ -129,19 +135,19 @@ def subdivision_matrix(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, bou
 
 
 class Limit:
-    """Limits of the vertices of a level.
+    """Limit positions of all vertices of a level, with normals and tangents of their sides. `limit` makes it.
 
-    A vertex has one side, unless sharp edges or several fans of faces cut the surface apart there: then each side has a
-    normal and tangents of its own.
+    A vertex has one side, unless sharp edges, or sheets that meet there, separate its faces: then each side has its own normal
+    and tangents.
 
     Attributes
     ----------
-    points : (vertices, 3)
-    normals : (sides, 3), of length one; zero where there is none
-    tangents : two (sides, 3), characteristic tangents; normals are along their cross product
-    status : (sides,) numbers; ``statuses[number]`` is the word
-    side_vertex : (sides,) the vertex of each
-    corner_side : (corners,) the side of each corner of a face
+    points : (vertices, 3), limit positions
+    normals : (sides, 3), unit normals by the winding of faces; zero where undefined
+    tangents : two arrays (sides, 3), characteristic tangents, not of unit length; their cross product is along the normal
+    status : (sides,), int8; ``statuses[number]`` is its name
+    side_vertex : (sides,), vertex of each side, ascending
+    corner_side : (corners,), side of each corner of each face, face by face
     faces : ``(sizes, corners)`` of the level
     """
 
@@ -160,12 +166,12 @@ class Limit:
 
     @cached_property
     def matrix(self) -> csr_array:
-        """(vertices, control points): limit points = matrix @ control points."""
+        """Weights of `points`, a csr_array (vertices, control points): points = matrix @ control points."""
         return csr(self._parts["matrix"])
 
     @cached_property
     def tangent_matrices(self) -> tuple[csr_array, csr_array]:
-        """Two (sides, control points): tangents = matrix @ control points."""
+        """Weights of both `tangents`, two csr_arrays (sides, control points): tangent = matrix @ control points."""
         first, second = self._parts["tangent_matrices"]
         return csr(first), csr(second)
 
@@ -176,16 +182,18 @@ class Limit:
 def limit(mesh: Mesh, scheme: Scheme | str, levels: int = 0, *, boundary: str | None = None, creasing: str | None = None,
           triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
           no_creases: bool = False, strict: bool = False, threads: int = 0) -> Limit:
-    """Exact limits, tangents and normals of the vertices of a level. The parameters are those of `refine`.
+    """Computes exact limit positions, tangents and normals of the vertices of a level.
+
+    Parameters and errors are those of `refine`, but for these.
 
     Parameters
     ----------
-    levels : refinements whose vertices are meant, 0 or more: 0 is the mesh itself
+    levels : level whose vertices get limits, 0 or more (default: 0, the mesh itself)
 
     Raises
     ------
     UnsupportedTopology
-        As `refine`; or the scheme has no limit at a vertex.
+        The scheme cannot refine the mesh, or does not converge at a vertex; the message says which.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
@@ -195,11 +203,15 @@ def limit(mesh: Mesh, scheme: Scheme | str, levels: int = 0, *, boundary: str | 
 
 
 def warn_of(mesh: Mesh, asked: _sublimit.MeshRequest, further: Sequence[str] = ()) -> None:
-    """Warns, where a function of the package was called, of what its scheme accepts of a mesh: five of them.
+    """Issues a `MeshWarning` for each reservation of a scheme about a mesh, for the caller of the calling function.
+
+    At most five are issued, then one with the number of all others.
 
     Parameters
     ----------
-    further : other warnings, which come first
+    mesh : the mesh
+    asked : the request, with scheme and rules
+    further : messages of other warnings, which are issued first
     """
     found = [*further, *(message for message in _sublimit.warnings(mesh._core, asked) if message not in further)]
     most = 5

@@ -16,42 +16,44 @@ from ._errors import InvalidMesh, InvalidParameter
 from ._schemes import Scheme, request
 
 Points = npt.ArrayLike
-"""(vertices, 3), real numbers."""
+"""Points of a mesh: (vertices, 3), real numbers."""
 
 
 class Mesh:
-    """A control mesh: points, faces of any size, tags. It never changes.
+    """A mesh: points, faces of any size, and tags. It never changes.
 
     Parameters
     ----------
     points : (vertices, 3), real numbers
-    faces : (faces, 3) or (faces, 4) vertices; or a list of lists; or ``(sizes, corners)``, the number of corners of each
-        face and the vertices of all faces, one after the other. Counter-clockwise, counted from 0
-    creases : {(tail, head): sharpness}, rows (tail, head, sharpness) or ``(edges, sharpness)``, two arrays, optional
-        Sharpness in levels; 10 and more, or infinity, never gets smooth
-    corners : {vertex: sharpness}, rows (vertex, sharpness) or ``(vertices, sharpness)``, two arrays, optional
-    holes : faces that are refined but are no part of the surface, optional
+    faces : (faces, 3) or (faces, 4) integers; or a list of lists; or ``(sizes, corners)``, the number of corners of each
+        face and the vertices of all faces, face by face. Vertices count from 0, counter-clockwise in each face.
+    creases : {(tail, head): sharpness}, rows (tail, head, sharpness) or two arrays ``(edges, sharpness)``, optional
+        Sharpness of edges in levels, >= 0; 10 or more is infinite: the edge stays sharp on all levels.
+    corners : {vertex: sharpness}, rows (vertex, sharpness) or two arrays ``(vertices, sharpness)``, optional
+        Sharpness of vertices, in the same unit.
+    holes : (holes,), numbers of faces that are refined but are not part of the limit, optional
     boundary : ``"none"``, ``"edge-only"`` or ``"edge-and-corner"``, optional
-        Edges and vertices of the boundary that are sharp (default: edge-and-corner)
+        Rule for the boundary (default: edge-and-corner). ``"none"``: faces that touch it are holes; ``"edge-only"``: its edges
+        are sharp; ``"edge-and-corner"``: its edges are sharp, and vertices of a single face are corners.
     uv : (values, 1 to 3), optional
-        Texture coordinates: of vertices, of corners, or those that `uv_faces` names
-    uv_faces : the value of every corner, in the form of `faces` or one after the other, optional
+        Texture coordinates: one for each vertex, one for each corner, or values that `uv_faces` refers to.
+    uv_faces : number of the value in `uv` for each corner, in the form of `faces` or as a flat array, optional
     normals : (normals, 3), optional
-        Of vertices, of corners, or those that `face_normals` names. Files have them; schemes do not read them
-    face_normals : the normal of every corner, as `uv_faces`, -1 for none, optional
-    face_ids : (faces,), a number for each, optional
-    face_names : a name for each face, empty for none, optional
-        Groups of an .obj, names of faces in a STEP file
+        One for each vertex, one for each corner, or normals that `face_normals` refers to. They are read from and written to
+        files; schemes ignore them.
+    face_normals : number of the normal in `normals` for each corner, -1 for none, in the form of `uv_faces`, optional
+    face_ids : (faces,), a number for each face, optional
+    face_names : list of str, a name for each face, empty for none, optional
+        Names are groups in an .obj, and names of faces in a STEP file.
 
-    All of these are attributes of a mesh as well, which another one can be made of as they are. `with_points` keeps all else
-    that a mesh has.
+    A mesh has all of these as attributes, in a form that the constructor accepts. `with_points` changes the points and keeps
+    the rest.
 
     Raises
     ------
-    InvalidParameter
-        An array of another shape or type; NaN and infinite points.
     InvalidMesh
-        Faces or tags that name what is not there, faces of two corners.
+        An array of another shape or type, NaN and infinite points, faces or tags that name vertices or faces that do not
+        exist, faces of two corners.
 
     Examples
     --------
@@ -74,20 +76,23 @@ class Mesh:
                  boundary: str | None = None, uv: npt.ArrayLike | None = None, uv_faces: Any = None,
                  normals: npt.ArrayLike | None = None, face_normals: Any = None, face_ids: npt.ArrayLike | None = None,
                  face_names: Iterable[str] | None = None) -> None:
-        positions = arrays.floats(points, "points", (None, 3), "(vertices, 3)")
-        sizes, vertices = arrays.faces(faces)
-        if uv is None and uv_faces is not None:
-            raise InvalidMesh("uv_faces says which values corners have, but there is no uv")
-        if normals is None and face_normals is not None:
-            raise InvalidMesh("face_normals says which normals corners have, but there are no normals")
-        self._core = _sublimit.Mesh(
-            positions, sizes, vertices, _creases(creases), _corners(corners),
-            arrays.ints([] if holes is None else holes, "holes", (None,), "(holes,)"), boundary,
-            None if uv is None else _channel(uv, uv_faces, sizes, vertices, len(positions)),
-            None if normals is None else _normals(normals, face_normals, sizes, vertices, len(positions)),
-            arrays.ints([] if face_ids is None else face_ids, "face_ids", (None if face_ids is None else len(sizes),),
-                        f"({len(sizes)} faces,)"),
-            names_of(face_names, len(sizes)))
+        try:
+            positions = arrays.floats(points, "points", (None, 3), "(vertices, 3)")
+            sizes, vertices = arrays.faces(faces)
+            if uv is None and uv_faces is not None:
+                raise InvalidMesh("uv_faces says which values corners have, but there is no uv")
+            if normals is None and face_normals is not None:
+                raise InvalidMesh("face_normals says which normals corners have, but there are no normals")
+            self._core = _sublimit.Mesh(
+                positions, sizes, vertices, _creases(creases), _corners(corners),
+                arrays.ints([] if holes is None else holes, "holes", (None,), "(holes,)"), boundary,
+                None if uv is None else _channel(uv, uv_faces, sizes, vertices, len(positions)),
+                None if normals is None else _normals(normals, face_normals, sizes, vertices, len(positions)),
+                arrays.ints([] if face_ids is None else face_ids, "face_ids", (None if face_ids is None else len(sizes),),
+                            f"({len(sizes)} faces,)"),
+                names_of(face_names, len(sizes)))
+        except InvalidParameter as error:  # a constructor of meshes raises InvalidMesh for all that is wrong with one
+            raise InvalidMesh(str(error)) from None
 
     @classmethod
     def _of(cls, core: _sublimit.Mesh) -> Mesh:
@@ -97,22 +102,22 @@ class Mesh:
 
     @property
     def points(self) -> arrays.Floats:
-        """(vertices, 3): what the mesh has, read-only."""
+        """Positions of the vertices, (vertices, 3), read-only."""
         return self._core.points
 
     @property
     def faces(self) -> tuple[arrays.Ints, arrays.Ints]:
-        """``(sizes, corners)``: what the mesh has, read-only."""
+        """``(sizes, corners)``: number of corners of each face, and the vertices of all faces, face by face. Read-only."""
         return self._core.sizes, self._core.corners
 
     @property
     def face_array(self) -> arrays.Ints:
-        """(faces, corners of each): what the mesh has, read-only, where faces are of one size.
+        """Vertices of the faces, (faces, corners of each), if all faces have the same size. Read-only.
 
         Raises
         ------
         InvalidParameter
-            They are not.
+            The mesh has no faces, or faces of different sizes.
         """
         sizes, vertices = self.faces
         if len(sizes) == 0 or (sizes != sizes[0]).any():
@@ -121,66 +126,71 @@ class Mesh:
 
     @property
     def creases(self) -> tuple[arrays.Ints, arrays.Floats32]:
-        """``(edges, sharpness)``: (creases, 2) vertices, and levels, as `Mesh` takes them."""
+        """``(edges, sharpness)`` of the creases: (creases, 2), the vertices of each, and (creases,), in levels."""
         return self._core.creases
 
     @property
     def corners(self) -> tuple[arrays.Ints, arrays.Floats32]:
-        """``(vertices, sharpness)`` of sharp vertices, sharpness in levels, as `Mesh` takes them."""
+        """``(vertices, sharpness)`` of the sharp vertices: (corners,) each, sharpness in levels."""
         return self._core.sharp_vertices
 
     @property
     def holes(self) -> arrays.Ints:
-        """Faces that are no part of the surface."""
+        """Numbers of the faces that are refined but are not part of the limit, (holes,)."""
         return self._core.holes
 
     @property
     def boundary(self) -> str | None:
-        """The mesh's own rule for boundaries, if it has one."""
+        """Rule of the mesh for its boundary: ``"none"``, ``"edge-only"`` or ``"edge-and-corner"``. None if it has no rule."""
         return self._core.boundary
 
     @property
     def uv(self) -> arrays.Floats | None:
-        """Texture coordinates (values, columns), if there are any."""
+        """Texture coordinates, (values, 1 to 3); None if the mesh has none. Read-only."""
         return self._core.channels[0][1] if self._core.channels else None
 
     @property
     def uv_faces(self) -> arrays.Ints | None:
-        """The texture coordinate of every corner, if there are any."""
+        """Number of the value in `uv` for each corner, (corners,); None if the mesh has no texture coordinates. Read-only."""
         return self._core.channels[0][2] if self._core.channels else None
 
     @property
     def normals(self) -> arrays.Floats | None:
-        """Normals (normals, 3), if there are any, read-only."""
+        """Normals, (normals, 3); None if the mesh has none. Read-only."""
         return self._core.normals if len(self._core.normals) else None
 
     @property
     def face_normals(self) -> arrays.Ints | None:
-        """The normal of every corner, -1 for none; None if normals are of vertices, or if there are none."""
+        """Number of the normal in `normals` for each corner, -1 for none: (corners,). None if normals are per vertex or absent.
+        """
         return self._core.face_normals if len(self._core.face_normals) else None
 
     @property
     def face_ids(self) -> arrays.Ints | None:
-        """A number for each face, if they have some: of what `tessellate` makes the face that a triangle lies on."""
+        """A number for each face, (faces,); None if the mesh has none.
+
+        For a mesh made by `tessellate` it is the face of the control mesh that the triangle lies on.
+        """
         return self._core.face_ids if len(self._core.face_ids) else None
 
     @property
     def face_names(self) -> list[str] | None:
-        """A name for each face, empty for none, if there are any: its group in an .obj, else its object."""
+        """A name for each face, empty for none; None if no face has one. In an .obj it is the group of the face, else its object.
+        """
         names = self._core.face_names
         return [name.decode("utf-8", "surrogateescape") for name in names] if names else None
 
     @property
     def warnings(self) -> list[str]:
-        """What a reader accepted but wants known."""
+        """Reservations of the reader about the file, each with file:line, and of the function that made the mesh."""
         return self._core.warnings
 
     def with_points(self, points: Points) -> Mesh:
-        """The mesh with other points, as in another frame. It keeps all else that it has.
+        """Returns the mesh with other points, as in another frame. Faces, tags and all else stay.
 
         Parameters
         ----------
-        points : (vertices, 3)
+        points : (vertices, 3), real numbers
 
         Raises
         ------
@@ -198,19 +208,20 @@ class Mesh:
         return Mesh._of(self._core.with_points(arrays.floats(points, "points", (count, 3), f"({count} vertices, 3)")))
 
     def info(self, scheme: Scheme | str | None = None, *, limit: bool = False) -> dict[str, Any]:
-        """Counts, valences, borders, tags, rules and faults, as ``sublimit info --json`` has them.
+        """Returns counts, valences, boundaries, tags, rules and faults, as ``sublimit info --json`` prints them.
 
         Parameters
         ----------
-        scheme : whether it takes the mesh, and the memory of its levels, too
-        limit : area, volume, centroid and inertia of its limit too, with errors where more than rounding is left
+        scheme : name or `Scheme`, to report whether it can refine the mesh, and the memory of its levels (default: none)
+        limit : report area, volume, centroid and inertia of the limit too, with error bounds where errors exceed rounding
+            (default: False)
 
         Raises
         ------
         InvalidOption
-            A scheme that there is not; `limit` without a scheme.
+            An unknown scheme, or `limit` without a scheme.
         UnsupportedTopology
-            As `LimitSurface`, if the limit is asked for.
+            The limit is requested, and the scheme has none for this mesh.
         """
         asked = _sublimit.MeshRequest() if scheme is None else request(scheme)
         found: dict[str, Any] = json.loads(_sublimit.info(self._core, asked, "mesh", bool(limit)))
@@ -218,12 +229,17 @@ class Mesh:
 
     @classmethod
     def from_trimesh(cls, mesh: Any) -> Mesh:
-        """A mesh of trimesh, or of anything with `vertices` and `faces`; also of meshio, with `points` and `cells`.
+        """Makes a mesh from one of another package.
+
+        Parameters
+        ----------
+        mesh : a ``trimesh.Trimesh`` or another object with `vertices` and `faces`; or a ``meshio.Mesh`` or another object with
+            `points` and `cells`, of which triangles, quads and polygons are taken
 
         Raises
         ------
         TypeError
-            Nothing of these.
+            The object has neither pair of attributes.
         """
         if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
             return cls(np.asarray(mesh.vertices), np.asarray(mesh.faces))
@@ -238,7 +254,7 @@ class Mesh:
         raise TypeError(f"a {type(mesh).__name__} has neither vertices and faces nor points and cells")
 
     def to_trimesh(self) -> Any:
-        """A ``trimesh.Trimesh`` with the same vertices; faces are cut into triangles from their first corners.
+        """Returns a ``trimesh.Trimesh`` with the same vertices and the triangles of `triangles`.
 
         Raises
         ------
@@ -250,7 +266,7 @@ class Mesh:
         return trimesh.Trimesh(self.points, self.triangles(), process=False)
 
     def triangles(self) -> arrays.Ints:
-        """(triangles, 3): faces, each cut from its first corner."""
+        """Returns the faces cut into triangles, each as a fan from its first corner: (triangles, 3)."""
         sizes, corners = self.faces
         first = np.repeat(np.cumsum(sizes) - sizes, sizes - 2)
         number = np.arange(len(first)) - np.repeat(np.cumsum(sizes - 2) - (sizes - 2), sizes - 2)
@@ -265,20 +281,26 @@ class Mesh:
                 f"{info['creases']} creases, {info['corners']} corners, {info['holes']} holes</p></div>")
 
     def faults(self) -> list[str]:
-        """What the mesh has that a manifold has not, in words."""
+        """Returns the reasons why the mesh is not a manifold, in words; empty if it is one."""
         return self._core.faults()
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes .obj, with tags, or .ply, by the extension. The file appears whole or not at all.
+        """Writes a file, which appears whole or not at all.
+
+        Parameters
+        ----------
+        path : path that ends in .obj, which holds the tags too, or .ply
 
         Raises
         ------
         InvalidOption
             Another extension.
+        InvalidParameter
+            Normals per corner, and a .ply.
         IoError
-            Unwritable.
+            The file cannot be written.
         ResourceError
-            A full disk.
+            The disk is full.
         """
         self._core.write(os.fspath(path))
 
@@ -290,17 +312,24 @@ class Mesh:
 
 
 def info(mesh: Mesh, scheme: Scheme | str | None = None, *, limit: bool = False) -> dict[str, Any]:
-    """Counts, valences, borders, tags, rules and faults of a mesh, as ``sublimit info --json`` has them: `Mesh.info`.
+    """Returns counts, valences, boundaries, tags, rules and faults of a mesh, as ``sublimit info --json`` prints them.
+
+    Calls `Mesh.info`.
 
     Parameters
     ----------
-    scheme : whether it takes the mesh, and the memory of its levels, too
-    limit : area, volume, centroid and inertia of its limit too
+    mesh : a `Mesh`
+    scheme : name or `Scheme`, to report whether it can refine the mesh, and the memory of its levels (default: none)
+    limit : report area, volume, centroid and inertia of the limit too (default: False)
 
     Raises
     ------
-    InvalidOption, UnsupportedTopology
-        As `Mesh.info`.
+    InvalidOption
+        An unknown scheme, or `limit` without a scheme.
+    UnsupportedTopology
+        The limit is requested, and the scheme has none for this mesh.
+    TypeError
+        `mesh` is not a `Mesh`.
 
     Examples
     --------
@@ -315,23 +344,33 @@ def info(mesh: Mesh, scheme: Scheme | str | None = None, *, limit: bool = False)
 
 
 def read(path: str | os.PathLike[str]) -> Mesh:
-    """Reads .obj (with tags), .ply or .off; tags in PATH.json beside it override those of the file.
+    """Reads a mesh from a file. Tags in a file PATH.json beside it override those of the file.
+
+    Parameters
+    ----------
+    path : path that ends in .obj, which may have tags, .ply or .off
 
     Raises
     ------
     FormatError
-        Not understood; the message starts with file:line.
+        The file cannot be parsed; the message starts with file:line.
     InvalidMesh
-        Faces or tags that name what is not there.
+        Faces or tags name vertices, edges or faces that do not exist.
     IoError
-        Missing, a directory, unreadable.
+        The file is missing, a directory or unreadable.
     """
     return Mesh._of(_sublimit.read(os.fspath(path)))
 
 
 def tag_rows(values: Any, name: str, columns: int, words: str) -> arrays.Floats:
-    """Rows of whole numbers and a last one, a sharpness or a rate: from a mapping, from rows, or from two arrays, as `Mesh` has
-    them.
+    """Returns tags as rows: vertices, then a sharpness or a rate, (tags, columns).
+
+    Parameters
+    ----------
+    values : mapping from vertices to numbers, rows, or two arrays (vertices, numbers) as in `Mesh`; None for no rows
+    name : name of the argument, for messages
+    columns : 3 for edges, 2 for vertices
+    words : accepted forms in words, for messages
     """
     if isinstance(values, Mapping):
         values = [(*(key if columns == 3 else (key,)), sharpness) for key, sharpness in values.items()]
@@ -351,7 +390,7 @@ def _sharp_rows(values: Any, name: str, columns: int, words: str) -> arrays.Floa
 
 
 def _joined(first: npt.NDArray[Any], second: npt.NDArray[Any], name: str, columns: int) -> Any:
-    """Rows of two arrays: the vertices of each tag, and its sharpness. Two arrays may be two rows as well."""
+    """Returns two arrays, the vertices of tags and their sharpness, as rows; unchanged if they are two rows themselves."""
     is_pair = second.ndim == 1 and first.shape == ((len(second), 2) if columns == 3 else (len(second),))
     if is_pair and first.dtype.kind not in "iu" and first.size > 0:
         is_pair = False
@@ -414,7 +453,7 @@ def _normals(normals: Any, face_normals: Any, sizes: arrays.Ints, vertices: arra
 
 
 def _of_corners(values: Any, name: str, sizes: arrays.Ints, vertices: arrays.Ints) -> arrays.Ints:
-    """A number for each corner of all faces, in the form of faces or one after the other."""
+    """Returns a number for each corner of all faces, given in the form of faces or as a flat array."""
     array = np.asarray(values) if isinstance(values, np.ndarray) else None
     if array is not None and array.ndim == 1 and array.dtype != object:
         indices = arrays.ints(array, name, (None,), "(corners,)")
@@ -426,7 +465,13 @@ def _of_corners(values: Any, name: str, sizes: arrays.Ints, vertices: arrays.Int
 
 
 def names_of(names: Iterable[str] | None, num_faces: int | None = None) -> list[bytes]:
-    """Names of faces as the compiled part takes them. None: how many there should be is looked at there."""
+    """Returns names of faces as the compiled part takes them: bytes in UTF-8.
+
+    Parameters
+    ----------
+    names : a str for each face; None for no names
+    num_faces : required number of names; None if the compiled part checks it
+    """
     if names is None:
         return []
     if isinstance(names, (str, bytes)):

@@ -594,7 +594,7 @@ def places_of(at: Any) -> tuple[arrays.Ints, arrays.Floats, arrays.Floats]:
     if not isinstance(at, (tuple, list)) or len(at) not in (2, 3):
         raise InvalidParameter("at is not (face, u, v) or (face, (u, v)), as Table.addresses has it")
     if len(at) == 2:
-        both = np.asarray(at[1])
+        both = arrays.any_array(at[1], "at")
         if both.ndim < 1 or both.shape[-1] != 2:
             raise InvalidParameter(f"at has (u, v) of shape {both.shape}; (..., 2) is right")
         return places(at[0], both[..., 0], both[..., 1])[:3]
@@ -605,7 +605,7 @@ def places(face: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike) -> tuple[arr
                                                                             tuple[int, ...]]:
     """Three flat arrays, and the shape that theirs broadcast to."""
     names = ("face", "u", "v")
-    given = [np.asarray(part) for part in (face, u, v)]
+    given = [arrays.any_array(part, name) for part, name in ((face, "face"), (u, "u"), (v, "v"))]
     try:
         wide = np.broadcast_arrays(*given)
     except ValueError:

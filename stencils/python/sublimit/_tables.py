@@ -183,7 +183,7 @@ class Table:
             return points
         if not self.rational:
             raise InvalidParameter("weights are for rational tables; this one is not")
-        values, factors = np.asarray(arrays.of_others(points)), np.asarray(arrays.of_others(weights))
+        values, factors = arrays.any_array(points, "points"), arrays.any_array(weights, "weights")
         if values.ndim not in (2, 3) or factors.shape not in (values.shape[:-1], values.shape[-2:-1]):
             raise InvalidParameter(f"weights has shape {factors.shape}; one for each of the points, which have shape "
                                    f"{values.shape}, is right")
@@ -209,7 +209,7 @@ class Table:
         (control points, channels)
         """
         gpu = number_of(device)
-        given = np.asarray(values)
+        given = arrays.any_array(values, "values")
         if self.quantities > 1 and given.ndim == 3:
             if given.shape[0] > self.quantities:
                 raise InvalidParameter(f"values has shape {given.shape}; the table has {self.quantities} quantities")
@@ -226,9 +226,7 @@ class Table:
         return out
 
     def _input(self, values: npt.ArrayLike, name: str, count: int, what: str) -> npt.NDArray[Any]:
-        array = np.asarray(arrays.of_others(values))
-        if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
-            raise InvalidParameter(f"{name} has masked entries; fill them, or leave them out")
+        array = arrays.any_array(values, name)
         if array.dtype.kind not in "fiu":
             raise InvalidParameter(f"{name} has dtype {array.dtype}; real numbers are right")
         if array.ndim not in (2, 3) or array.shape[-2] != count or array.shape[-1] < 1:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// How near numbers of a GPU are to those of the scalar kernel: counted in roundings of the sum of magnitudes of terms.
+// Comparison of the results of a GPU with those of the scalar kernel. Tolerances are multiples of the rounding
+// of the sum of the magnitudes of all terms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,10 +16,12 @@ namespace sublimit::testing {
 
 inline constexpr double float_rounding = 0x1p-23;
 
-/// Of sums of hundreds of terms that are added in another order: their roundings walk as the root of their number.
+/// Tolerance, in roundings, of sums of hundreds of terms in another order: errors grow as the root of their
+/// number.
 inline constexpr double roundings_of_another_order = 16;
 
-/// |x - right| within two roundings of a float as large as the sum of the magnitudes of its terms, or so many.
+/// Expects that |x - right| is within `roundings` roundings of a float as large as the sum of the magnitudes of
+/// its terms.
 inline void expect_near_terms(std::span<const float> x, std::span<const float> right, std::span<const double> terms,
                               double roundings = 2) {
   ASSERT_EQ(x.size(), right.size());
@@ -28,10 +31,11 @@ inline void expect_near_terms(std::span<const float> x, std::span<const float> r
         << "number " << i << ": " << x[i] << ", not " << right[i];
 }
 
-/// Of each number that a rational evaluation makes: what roundings of A and w become, by the quotient rule.
-/// @param columns  A and w of all quantities, as the table makes them
-/// @param terms    of columns
-/// @return  quantities x points x (channels - 1); infinity where the weight is no more than its noise
+/// Returns the error bound of each result of a rational evaluation, by propagating the roundings of A and w
+/// through the quotient rule.
+/// @param columns  A and w of all quantities, as the table computes them
+/// @param terms    sums of magnitudes of terms for each number of `columns`
+/// @return  quantities x points x (channels - 1); infinity where the weight is below its rounding error
 inline std::vector<double> roundings_of_quotients(std::span<const float> columns, std::span<const double> terms,
                                                   int quantities, size_t channels) {
   const size_t points = columns.size() / (size_t(quantities) * channels);
@@ -68,10 +72,11 @@ inline std::vector<double> roundings_of_quotients(std::span<const float> columns
   return all;
 }
 
-/// Unit normals along u x v: roundings of the derivatives, seen at the angle between them.
-/// @param derivatives  along u of all points, then along v
-/// @param terms        of derivatives
-/// @return  points compared: those whose derivatives are more than their roundings
+/// Expects near unit normals along u x v, with a bound from the roundings of the derivatives and the angle
+/// between them.
+/// @param derivatives  derivatives along u at all points, then along v
+/// @param terms        sums of magnitudes of terms for each number of `derivatives`
+/// @return  number of points compared: those whose derivatives exceed their rounding errors
 inline size_t expect_near_normals(std::span<const float> x, std::span<const float> right,
                                   std::span<const float> derivatives, std::span<const double> terms) {
   EXPECT_EQ(x.size(), right.size());
@@ -94,7 +99,7 @@ inline size_t expect_near_normals(std::span<const float> x, std::span<const floa
   return compared;
 }
 
-/// A half of sign, exponent and fraction.
+/// Returns the value of a half float from its bits.
 inline double half_value(std::uint16_t bits) {
   const int exponent = bits >> 10 & 31, fraction = bits & 1023;
   const double magnitude = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// An engine that uses tables: an instance without a window, a device, a queue, command buffers and buffers of its own,
-// watched by Vulkan's validation layer if it is asked for.
+// An engine that uses tables, for tests: an instance without a window, a device, a queue, its own command
+// buffers and buffers, optionally checked by Vulkan's validation layer.
 #include <cstring>
 #include <memory>
 #include <mutex>
@@ -69,7 +69,8 @@ class Engine {
     return false;
   }
 
-  /// @param messages  of the validation layer, with synchronisation; null: it is not asked
+  /// @param messages  receives the messages of the validation layer, including synchronisation; null: no
+  ///                  validation
   explicit Engine(Messages* messages = nullptr) {
     make_instance(messages);
     try {
@@ -121,7 +122,7 @@ class Engine {
     }
   };
   std::unique_ptr<Buffer> buffer(std::int64_t bytes) const { return std::make_unique<Buffer>(*this, bytes); }
-  /// With these numbers in it.
+  /// Returns a buffer with these numbers.
   template <class T>
   std::unique_ptr<Buffer> buffer_of(const std::vector<T>& numbers) const {
     auto made = buffer(std::int64_t(numbers.size() * sizeof(T)));
@@ -129,7 +130,7 @@ class Engine {
     return made;
   }
 
-  /// Commands that are being recorded, until they were run.
+  /// Returns a command buffer that is being recorded; it is valid until it is run.
   VkCommandBuffer begin() const {
     VkCommandBufferAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -143,7 +144,7 @@ class Engine {
     succeed(vk.vkBeginCommandBuffer(commands, &begin), "begin");
     return commands;
   }
-  /// Between what was recorded and what comes; and what the host reads, in the end.
+  /// Records a barrier between previous and later commands, and reads of the host.
   void barrier(VkCommandBuffer commands) const {
     VkMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;

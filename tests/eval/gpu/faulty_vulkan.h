@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Vulkan between the library and the driver of an engine: it counts calls and what is alive, and fails where it is told
-// to.
+// A layer between the library and the Vulkan driver of an engine. It counts calls and live objects, and makes
+// selected calls fail.
 #include <atomic>
 #include <cstring>
 #include <map>
@@ -20,15 +20,15 @@ namespace sublimit::testing {
 struct Calls {
   const char* name;
   PFN_vkVoidFunction wrapper = nullptr;
-  std::atomic<std::int64_t> count = 0;      ///< that were made with something in hand
-  std::atomic<std::int64_t> succeeded = 0;  ///< of them
-  std::atomic<std::int64_t> fails_at = -1;  ///< the call that fails, as `count` counts
+  std::atomic<std::int64_t> count = 0;      ///< number of calls with an object
+  std::atomic<std::int64_t> succeeded = 0;  ///< number of these that succeeded
+  std::atomic<std::int64_t> fails_at = -1;  ///< value of `count` at the call that fails; -1: none
   VkResult failure = VK_SUCCESS;
 };
 
 class FaultyVulkan {
  public:
-  /// One at a time: functions have no state.
+  /// There may be only one at a time, since Vulkan's functions have no state.
   explicit FaultyVulkan(const Engine& engine) : engine_(engine) {
     real_ = engine.vk, device_ = engine.device;
     separate_ = without_commands_ = is_pending_ = false;
@@ -49,19 +49,19 @@ class FaultyVulkan {
       if (calls->name == name) return *calls;
     throw std::runtime_error("no function " + name);
   }
-  /// The call of this function that comes after so many others fails, once.
+  /// Makes one call of a function fail, after so many further calls of it.
   static void fail(const std::string& name, std::int64_t after, VkResult failure) {
     Calls& calls = of(name);
     calls.failure = failure;
     calls.fails_at = calls.count + after;
   }
-  /// Whether it came to that.
+  /// Returns true if that call was made.
   static bool has_failed(const std::string& name) { return of(name).count > of(name).fails_at; }
   static void stop_failing() {
     for (Calls* calls : all()) calls->fails_at = -1;
   }
 
-  /// What was made and has not been given back, by what makes it.
+  /// Returns the number of live objects, by the function that makes them.
   static std::map<std::string, std::int64_t> alive() {
     constexpr const char* pairs[][2] = {{"vkCreateBuffer", "vkDestroyBuffer"},
                                         {"vkAllocateMemory", "vkFreeMemory"},
@@ -82,7 +82,7 @@ class FaultyVulkan {
     }
     return sum;
   }
-  /// Calls that make something, of any kind.
+  /// Returns the number of calls that make objects of any kind.
   static std::int64_t num_made() {
     std::int64_t sum = 0;
     for (const Calls* calls : all())
@@ -91,9 +91,10 @@ class FaultyVulkan {
     return sum;
   }
 
-  /// What was ended while work might use it: after a wait that failed, and before one that did not.
+  /// Returns the number of objects that were destroyed while work might use them: after a failed wait, and
+  /// before a successful one.
   static std::int64_t num_ended_too_early() { return ended_too_early_; }
-  /// Of memory that is alive.
+  /// Returns the bytes of live memory.
   static std::int64_t num_bytes() {
     const std::lock_guard lock(sizes_mutex_);
     std::int64_t sum = 0;
@@ -101,9 +102,9 @@ class FaultyVulkan {
     return sum;
   }
 
-  /// As discrete GPUs have it: memory of the device that the host does not reach, and the host's.
+  /// Pretends to be a discrete GPU, with device memory that the host cannot access, and host memory.
   static void separate_memories() { separate_ = true; }
-  /// Commands are recorded nowhere: whatever is allocated is allocated by the library.
+  /// Drops recorded commands, so that all allocations are those of the library.
   static void leave_out_commands(bool yes) { without_commands_ = yes; }
 
  private:
@@ -135,7 +136,7 @@ class FaultyVulkan {
         return result;
       }
     }
-    /// A call of vkDestroyX or vkFreeMemory without anything.
+    /// Returns true for a call of vkDestroyX or vkFreeMemory with a null object.
     static bool ends_nothing(Args... args) {
       if constexpr (sizeof...(Args) == 3) {
         const auto handle = std::get<1>(std::tie(args...));

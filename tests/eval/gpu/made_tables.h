@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Tables of random weights with every part that a table can have, and sums of the magnitudes of their terms.
+// Tables of random weights with all optional parts of a table, and sums of the magnitudes of their terms.
 #include <cmath>
 #include <random>
 #include <vector>
@@ -13,12 +13,13 @@ namespace sublimit::testing {
 struct MadeTable {
   int quantities = 1;
   bool first = false, rest = false, copies = false, placed = false;
-  int largest_rows = 80, largest_columns = 40, largest_count = 40;  ///< of blocks, of patches in a group
+  int largest_rows = 80, largest_columns = 40, largest_count = 40;  ///< bounds for blocks, and for patches in a group
   int groups = 8;
-  bool many = false;  ///< so many patches of so many rows that a GPU makes most of them by fours of rows
+  bool many = false;  ///< so many patches of so many rows that a GPU groups most rows by four
 };
 
-/// @param parts  that it has
+/// Returns a random table.
+/// @param parts  optional parts and sizes of the table
 inline PatternTable<float> made_table(const MadeTable& parts, unsigned seed) {
   std::mt19937 random(seed);
   const auto up_to = [&](int last) { return std::uniform_int_distribution<int>(0, last)(random); };
@@ -81,7 +82,7 @@ std::vector<double> magnitudes(const Numbers& numbers) {
   return all;
 }
 
-/// The table with the magnitudes of its weights.
+/// Returns the table with each weight replaced by its magnitude.
 inline PatternTable<double> table_of_magnitudes(const PatternTable<float>& table) {
   const auto step = [&](const StencilTable<float>& s) {
     return StencilTable<double>(s.num_control_points(), s.offsets(), s.columns(), magnitudes(s.weights()));
@@ -98,7 +99,7 @@ inline PatternTable<double> table_of_magnitudes(const PatternTable<float>& table
   return {table.num_control_points(), std::move(a)};
 }
 
-/// Of each number that the table makes: the sum of the magnitudes of its terms.
+/// Returns for each result of the table the sum of the magnitudes of its terms.
 inline std::vector<double> sums_of_terms(const PatternTable<float>& table, std::span<const float> points,
                                          int channels) {
   std::vector<double> result(size_t(table.quantities()) * size_t(table.num_points()) * size_t(channels));
@@ -106,7 +107,7 @@ inline std::vector<double> sums_of_terms(const PatternTable<float>& table, std::
   return result;
 }
 
-/// The same of the transpose.
+/// Returns these sums for the results of the transpose.
 inline std::vector<double> sums_of_transposed_terms(const PatternTable<float>& table, std::span<const float> values,
                                                     int channels) {
   const PatternTable<double> sums = table_of_magnitudes(table);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The device that tests run on: the first one, or the one that SUBLIMIT_TEST_GPU numbers.
+// The device for tests: the first one, or the one whose number is in the environment variable
+// SUBLIMIT_TEST_GPU.
 #include <cstdlib>
 #include <span>
 
@@ -17,8 +18,8 @@ inline GpuDevice test_device() {
   return device;
 }
 
-/// What the scalar kernel makes; of GPUs, which multiply and add in one rounding, what it makes if it does so too. Rows
-/// of hundreds of terms differ by more than two roundings otherwise, in either direction from the truth.
+/// Applies a table by the scalar kernel; if the device is a GPU, with fused multiplication and addition as on
+/// GPUs. Otherwise rows of hundreds of terms would differ by more than two roundings.
 inline void apply_as_device(const GpuDevice& device, const PatternTable<float>& table, std::span<const float> points,
                             int channels, std::span<float> result) {
   if (device.info().kind == GpuKind::cpu)

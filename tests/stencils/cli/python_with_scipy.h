@@ -7,7 +7,7 @@
 
 namespace sublimit::testing {
 
-/// A Python that has NumPy and SciPy; empty if there is none.
+/// Returns the path of a Python with NumPy and SciPy; empty if there is none.
 inline std::string python_with_scipy() {
   for (const std::string name : {"/usr/bin/python3", "python3"})
     if (std::system((name + " -c 'import numpy, scipy.interpolate' 2>/dev/null").c_str()) == 0) return name;
@@ -16,6 +16,6 @@ inline std::string python_with_scipy() {
 
 }  // namespace sublimit::testing
 
-/// Goes on with a test only if there is one.
+/// Skips a test unless there is one; in CI the test fails.
 #define SUBLIMIT_NEEDS_SCIPY \
   SUBLIMIT_NEEDS_PROGRAM(!::sublimit::testing::python_with_scipy().empty(), "python3-numpy python3-scipy")

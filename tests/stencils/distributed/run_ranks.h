@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// `sublimit-mpi` under mpirun, oversubscribed, as root too; and `sublimit`, beside which its results are laid.
+// Running `sublimit-mpi` by mpirun, oversubscribed and permitted as root; and `sublimit`, to compare results.
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -12,12 +12,12 @@
 
 namespace sublimit::testing {
 
-/// How a run of so many ranks ended, and what it said.
+/// Exit status and output of a run.
 struct RanksRun {
-  int status = 0;        ///< 124: it took too long
-  std::string out, err;  ///< of all ranks; without what mpirun adds
+  int status = 0;        ///< exit status; 124: timeout
+  std::string out, err;  ///< output of all ranks, without mpirun's own
 
-  /// Lines of `err` that are the program's.
+  /// Returns the lines of `err` that the program wrote.
   std::string error() const {
     std::string lines;
     for (std::size_t at = err.find("sublimit-mpi: "); at != std::string::npos; at = err.find("sublimit-mpi: ", at + 1))
@@ -26,7 +26,7 @@ struct RanksRun {
   }
 };
 
-/// @param before  what stands before `mpirun` in the shell
+/// @param before  shell text before `mpirun`
 inline RanksRun run_ranks(int ranks, const std::string& arguments, const std::string& before = "", int seconds = 100,
                           const std::string& program = SUBLIMIT_MPI_PROGRAM) {
   const TemporaryDirectory directory;

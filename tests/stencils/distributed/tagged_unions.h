@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// All tagged meshes that are for a scheme and have the same rules, beside each other: fewer runs of many processes.
+// Disjoint unions of all tagged meshes for a scheme with equal rules, to need fewer runs with many processes.
 #include <map>
 #include <tuple>
 #include <vector>

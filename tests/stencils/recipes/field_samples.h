@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A small field of each kind as its document, and documents that somebody has spoilt.
+// A small field of each kind as a JSON document, and damaged documents.
 #include <random>
 #include <regex>
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace sublimit::testing {
 
-/// Every kind of field; each has a closed surface in the box from (-2, -2, -2) to (2, 2, 2).
+/// Returns a document for every kind of field, each with a closed surface in the box from (-2, -2, -2) to (2,
+/// 2, 2).
 inline const std::vector<std::string>& field_documents() {
   static const std::string ball = R"({"field": "distance-point", "point": [0, 0, 0], "radius": "1/2"})";
   static const std::string box = R"(, "box": [[-2, -2, -2], [2, 2, 2]]})";
@@ -37,7 +38,7 @@ inline const std::vector<std::string>& field_documents() {
   return all;
 }
 
-/// A number or word of the document becomes another, or a few bytes do.
+/// Returns a document with a number, a word or a few bytes changed.
 inline std::string spoilt(const std::string& document, std::mt19937& random) {
   static const std::vector<std::string> instead{"0",
                                                 "-1",

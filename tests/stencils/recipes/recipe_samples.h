@@ -7,7 +7,7 @@
 
 namespace sublimit::testing {
 
-/// Kind, and its fields without the braces.
+/// Returns the kinds with their fields, without the braces.
 inline const std::vector<std::pair<std::string, std::string>>& sample_fields() {
   static const std::string segment = R"({"degree": 1, "knots": [0, 0, 1, 1], "points": )";
   static const std::string boundary = R"("c0": )" + segment + R"([[0, 0, 0], [1, 0, 0]]}, "c1": )" + segment +
@@ -76,7 +76,7 @@ inline const std::vector<std::pair<std::string, std::string>>& sample_fields() {
   return all;
 }
 
-/// A recipe of a kind, with fields before the others.
+/// Returns a recipe of a kind, with further fields before the others.
 inline std::string sample_recipe(const std::string& kind, const std::string& more = "") {
   for (const auto& [name, fields] : sample_fields())
     if (name == kind) return R"({"kind": ")" + kind + "\", " + more + fields + "}";

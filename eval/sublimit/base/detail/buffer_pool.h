@@ -12,7 +12,8 @@ namespace sublimit {
 
 /// A pool of arrays, as many as were ever in use at the same time. Any number of threads may use it.
 ///
-/// Arrays are not bound to threads: a thread that waits for its loop may be given another call of the same function.
+/// Arrays do not belong to threads: a thread that waits for its loop may meanwhile run another call of the same
+/// function.
 template <class T>
 class BufferPool {
   using Buffer = std::vector<T>;

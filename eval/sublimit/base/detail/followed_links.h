@@ -13,7 +13,7 @@ namespace sublimit {
 /// Returns the path that writing to `target` creates: links are followed to their end, as `cp` and the shell's `>` do.
 /// @throws IoError  links in a circle, or a link that cannot be read
 inline std::filesystem::path followed_links(const std::filesystem::path& target) {
-  constexpr int most_links = 40;  // as the kernel has it
+  constexpr int most_links = 40;  // the limit of the kernel
   std::filesystem::path path = target;
   std::error_code failed;
   for (int links = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(path, failed)); ++links) {

@@ -57,7 +57,7 @@ namespace detail {
 /// Returns true if decimal text that is out of range is too close to zero, false if it is too far from it. The power
 /// of ten of the first digit that is not zero decides.
 inline bool is_tiny(std::string_view text) {
-  std::int64_t power = 0;  // of the first non-zero digit; the exponent comes on top
+  std::int64_t power = 0;  // power of the first non-zero digit, without the exponent
   bool started = false, fraction = false;
   std::size_t i = 0;
   for (; i < text.size() && text[i] != 'e' && text[i] != 'E'; ++i) {

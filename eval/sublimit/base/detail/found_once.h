@@ -25,7 +25,7 @@ namespace sublimit {
 ///
 /// Errors: an `AnalysisError` is a result ("there is no limit here"): it is kept, and thrown by every call. Other
 /// exceptions are temporary (no memory, an interruption, an error of the caller's code): they are thrown in the thread
-/// that computed, and the next call, or one that waits, tries again.
+/// that computed, and the next call, or a waiting one, computes again.
 template <class T>
 class ComputedOnce {
  public:
@@ -81,7 +81,7 @@ class ComputedOnce {
 
   mutable std::atomic<State> state_{State::unknown};
   mutable std::optional<T> value_;
-  mutable std::exception_ptr why_;  // it is impossible
+  mutable std::exception_ptr why_;  // the AnalysisError, if there is no value
 };
 
 /// A dictionary of values, each computed once. Threads compute different values at the same time; no lock is held.
@@ -91,7 +91,7 @@ template <class Key, class T, class Hash = void>
 class FoundByKey {
  public:
   FoundByKey() = default;
-  FoundByKey(FoundByKey&&) = default;  ///< while nobody else has it
+  FoundByKey(FoundByKey&&) = default;  ///< not while other threads use it
   FoundByKey& operator=(FoundByKey&&) = default;
 
   /// Returns the value of a key, computed by find() at the first call, as `ComputedOnce::get`. The reference is valid

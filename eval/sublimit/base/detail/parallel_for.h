@@ -23,7 +23,7 @@ constexpr std::int64_t num_blocks(std::int64_t count, std::int64_t size = block_
 
 namespace detail {
 
-/// A block as TBB has it.
+/// Functor for a block in the form that TBB takes.
 template <class Run>
 struct LoopBlock {
   const Run& run;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A whole file as bytes.
+// Reading a whole file.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@
 
 namespace sublimit {
 
-/// The bytes of a file; pipes and devices are read to their end.
+/// Returns the bytes of a file. Pipes and devices are read to their end.
 /// @throws IoError  missing, a directory, unreadable;  ResourceError  larger than memory
 inline std::string read_file(const std::filesystem::path& path) {
   struct Descriptor {

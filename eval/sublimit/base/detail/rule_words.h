@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The words that files, tables and options have for rules, each list in the order of the enumerators of
-// mesh/mesh.h. Those of face-varying channels are OpenSubdiv's.
+// The words for rules in files, tables and options. Each list has the order of the enumerators of mesh/mesh.h.
+// Words for face-varying channels are those of OpenSubdiv.
 #include <array>
 
 namespace sublimit {

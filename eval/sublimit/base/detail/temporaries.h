@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Files and directories that are removed unless they are finished. Those of a process are in one list, so that a
-// program that ends early, by Ctrl-C or a lack of memory, can remove them without allocating memory.
+// Temporary files and directories, which are removed unless they are finished. A process has one list of them,
+// so that a program that ends early, by Ctrl-C or a lack of memory, can remove them without allocating memory.
 #include <unistd.h>
 
 #include <atomic>
@@ -14,12 +14,12 @@
 
 namespace sublimit {
 
-/// A name whose file or directory is removed by the destructor; or no name. Directories must be empty by then: files in
-/// them are listed after them.
+/// The name of a file or directory that the destructor removes; may be empty. Directories must be empty by
+/// then, so that their files must be listed after them.
 class Temporary {
  public:
   Temporary() = default;
-  /// Lists a name. To be called before the file is made, so that none is missed.
+  /// Adds a name to the list. To be called before the file is made, so that it cannot be missed.
   explicit Temporary(std::string name) { list(std::move(name)); }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
@@ -29,8 +29,8 @@ class Temporary {
   }
 
   /// Makes a new file or directory beside `target`, named ".NAME.PID-N.tmp".
-  /// @param make  make(name) makes what has that name, which is null-terminated, and returns whether it did; errno
-  ///              EEXIST: another name is tried
+  /// @param make  make(name) makes the file or directory and returns true on success. The name is
+  ///              null-terminated. With errno EEXIST another name is tried
   /// @return  0, or errno
   template <class Make>
   int make_beside(const std::filesystem::path& target, const Make& make) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What there is to know of a mesh that no process has whole, before it is refined: the counts of mesh_info.h, and how
-// its parts would be.
+// Information on a mesh that no process has whole, before it is refined: the counts of mesh_info.h, and the
+// sizes of the parts that it would be divided into.
 #include <nlohmann/json.hpp>
 
 #include <map>
@@ -11,13 +11,13 @@
 namespace sublimit {
 
 struct SpreadInfo {
-  /// How many there are of each.
+  /// Number of elements by key: by number of corners, or by valence.
   using Histogram = std::map<std::int64_t, std::int64_t>;
   struct Extent {
     std::int64_t least = 0, most = 0;
   };
 
-  // As of `MeshInfo`.
+  // As the fields of `MeshInfo` with these names.
   std::int64_t vertices = 0, edges = 0, faces = 0;
   std::int64_t euler_characteristic = 0, components = 0, boundary_loops = 0;
   Histogram face_sizes, interior_valences, boundary_valences;
@@ -28,22 +28,24 @@ struct SpreadInfo {
   std::vector<std::string> warnings;
   std::string scheme, why_not;
 
-  /// How many there are, of what is no manifold with all its vertices in faces.
+  /// Numbers of elements that a manifold without isolated vertices does not have.
   std::int64_t isolated_vertices = 0, nonmanifold_vertices = 0, nonmanifold_edges = 0;
 
-  int parts = 0, rings = 0;  ///< parts, one a rank, and the rings of faces around each
+  int parts = 0, rings = 0;  ///< number of parts, one for each rank; rings of faces around a part
   Extent part_faces, halo_faces;
-  /// Of memory, of a rank: the mesh, its part and the rings; tables and points come to it.
+  /// Memory of a rank in bytes: its run of the mesh, and its part with the rings around it. Tables and results
+  /// are not included.
   Extent part_bytes;
 };
 
-/// All ranks call.
-/// @param request  without a scheme: `rings` is what counting takes
-/// @throws as `spread_job`, but for a mesh that the scheme does not take, which is an answer
+/// Returns the information on a mesh. Collective: all ranks call.
+/// @param request  may be without a scheme; parts then have the one ring that counting needs
+/// @param told     called with the steps of the work, see `Told`
+/// @throws as `spread_job`, except for a mesh that the scheme does not take: `why_not` of the result says so
 SpreadInfo spread_info(const Ranks& ranks, const MeshRequest& request, SpreadMesh mesh, const std::string& name,
                        const Told& told);
 
-/// As `sublimit info --json` has it, where it has the same.
+/// Returns information as JSON, with the keys of `sublimit info --json` and those that only parts have.
 nlohmann::ordered_json to_json(const SpreadInfo& info, const std::string& name);
 
 }  // namespace sublimit

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Places by addresses of the whole mesh, to the ranks that own their faces: first to the rank that has the face in its
-// run, which knows whose it is.
+// Sending places, given by addresses of the whole mesh, to the ranks that own their faces. A place first goes
+// to the rank that has its face in its run, since that rank knows the owner.
 #include <optional>
 
 #include "sublimit/distributed/jobs/spread_job.h"
@@ -11,40 +11,42 @@ namespace sublimit {
 
 class PlaceRoutes {
  public:
-  /// As `Place`, of the whole.
+  /// A place by its address in the whole mesh, as `Place` in 64 bits.
   struct WidePlace {
     std::int64_t address = 0;
     double u = 0, v = 0;
   };
-  /// Places on faces of this rank, those of the first rank first, in its order.
+  /// Places on faces that this rank owns, ordered by the rank that asked, then by their number there.
   struct Routed {
-    std::vector<Place> samples;                         ///< by addresses of the part
-    std::vector<std::array<std::int64_t, 2>> asked_by;  ///< of each: the rank, and its number there
+    std::vector<Place> samples;                         ///< places by addresses of the part
+    std::vector<std::array<std::int64_t, 2>> asked_by;  ///< for each place: rank that asked, and number there
   };
 
-  /// All ranks call. All must stay.
-  /// @param part  of each face of the own run; part p is of rank p
-  /// @param own   this rank's part
+  /// Collective: all ranks call. All arguments must outlive this.
+  /// @param part  part of each face of this rank's run; rank p has part p
+  /// @param own   part of this rank
   PlaceRoutes(const Ranks& ranks, const SpreadJob& job, const std::vector<int>& part, const MeshPart& own);
   PlaceRoutes(const Ranks&&, const SpreadJob&, const std::vector<int>&, const MeshPart&) = delete;
   PlaceRoutes(const Ranks&, const SpreadJob&&, const std::vector<int>&, const MeshPart&) = delete;
   PlaceRoutes(const Ranks&, const SpreadJob&, const std::vector<int>&&, const MeshPart&) = delete;
   PlaceRoutes(const Ranks&, const SpreadJob&, const std::vector<int>&, const MeshPart&&) = delete;
 
-  std::int64_t num_addresses() const { return addresses_.size(); }  ///< of the whole
+  std::int64_t num_addresses() const { return addresses_.size(); }  ///< addresses of the whole mesh
   bool triangles() const { return whole_ == 3; }
 
-  /// @param where, hint  what the message begins and ends with
+  /// Checks a place.
+  /// @param where, hint  start and end of the message
   /// @throws FormatError  an address that does not exist, parameters outside its square or triangle
   void check(const WidePlace& place, const std::string& where, const std::string& hint = "") const;
 
-  /// All ranks call.
-  /// @param places  that `check` accepts
+  /// Sends places to the owners of their faces, and returns those that other ranks sent here. Collective: all
+  /// ranks call.
+  /// @param places  places that `check` accepts
   Routed route(std::span<const WidePlace> places) const;
 
-  /// Where the limits of vertices are: at a corner of the first face there that is no hole; none: no surface is there.
-  /// All ranks call.
-  /// @param vertices  of the whole, that there are
+  /// Returns a place at the limit of each vertex: a corner of the first of its faces that is not a hole; absent
+  /// if it has no such face. Collective: all ranks call.
+  /// @param vertices  existing vertices, by their numbers in the whole mesh
   std::vector<std::optional<WidePlace>> at_vertices(std::span<const std::int64_t> vertices) const;
 
  private:
@@ -54,9 +56,9 @@ class PlaceRoutes {
   const SpreadJob& job_;
   const std::vector<int>& part_;
   const MeshPart& own_;
-  std::int32_t whole_ = 4;                 // corners of faces that are one address
-  Runs addresses_;                         // of the runs of faces
-  std::vector<std::int64_t> run_, local_;  // first address of each face of the own run, and of the part
+  std::int32_t whole_ = 4;                 // corners of faces with one address; others have one for each corner
+  Runs addresses_;                         // addresses of each rank's run of faces
+  std::vector<std::int64_t> run_, local_;  // first address of each face: of the run; of the part
 };
 
 }  // namespace sublimit

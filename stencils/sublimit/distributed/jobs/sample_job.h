@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Samples of the limit of a mesh that no process has whole, into a file as `sublimit sample` writes it
-// (sample_files.h): places go to the ranks that own their faces, what is found there comes back, batch by batch.
+// Samples of the limit of a mesh that no process has whole, written to a file as `sublimit sample` writes it
+// (sample_files.h). Batch by batch, places go to the ranks that own their faces, and the results come back.
 #include <memory>
 #include <optional>
 
@@ -11,12 +11,12 @@
 namespace sublimit {
 
 struct SampleRequest {
-  // One of these three says where.
+  // Exactly one of these three gives the places.
   std::filesystem::path at;                ///< a CSV; empty: not given
-  std::optional<int> grid;                 ///< samples a side, 2 at least
-  std::optional<std::int64_t> num_random;  ///< 0 at least
-  std::uint64_t seed = 0;                  ///< of random ones
-  bool clamp = false;                      ///< places of `at` outside their face are moved to its rim
+  std::optional<int> grid;                 ///< samples on each side of a face, >= 2
+  std::optional<std::int64_t> num_random;  ///< number of random samples, >= 0
+  std::uint64_t seed = 0;                  ///< seed of random samples
+  bool clamp = false;                      ///< move places of `at` outside their face to its boundary
   SampleColumns columns;
   std::filesystem::path output;
 };
@@ -26,13 +26,15 @@ struct SamplesMade {
   std::int64_t num_clamped = 0;
 };
 
-/// The same bytes as one process writes.
-/// @param reader  of `at`, on the first rank
-/// @throws FormatError          on all ranks, like all that follows: as `SampleReader`, naming the row
-/// @throws UnsupportedTopology  faces that the scheme cuts first only where not all have four corners, as parts do not
-/// see
-/// @throws ResourceError        more samples than the disk has room for; more faces than places can have by 32 bits
-/// @throws AnalysisError        no limit
+/// Evaluates the samples of a request and writes them: the same bytes as one process writes. Collective: all
+/// ranks call.
+/// @param reader  reader of `at` on the first rank, else null
+/// All errors are thrown on all ranks:
+/// @throws FormatError          as `SampleReader`, naming the row
+/// @throws UnsupportedTopology  a scheme that first cuts faces if not all of the mesh have four corners (a part
+///                              does not know the faces of the others), on a mesh with other faces
+/// @throws ResourceError        more samples than the disk has room for; more faces than 32-bit numbers count
+/// @throws AnalysisError        a place without a limit
 SamplesMade write_samples(const Ranks& ranks, const SpreadJob& job, const SampleRequest& request, SampleReader* reader,
                           const Told& told);
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Which part has which face, kept beside the shards: PT-Scotch may divide a mesh in another way each time, and a bake
-// that goes on must not. A safetensors file, "division.safetensors", with one tensor:
+// The part of each face, kept in a file beside the shards: PT-Scotch may divide a mesh in another way each
+// time, but a bake that is continued needs the division of its first run. "division.safetensors" is a
+// safetensors file with one tensor:
 //
 //   part      I32 #faces
-//   metadata  division   what was divided, into how many, 16 hexadecimal digits
+//   metadata  division   hash of the mesh, the request and the number of parts, 16 hexadecimal digits
 #include <filesystem>
 #include <optional>
 
@@ -14,10 +15,13 @@ namespace sublimit {
 
 inline constexpr const char* division_name = "division.safetensors";
 
-/// Parts of the own run of faces, if they are there, and of this name, on all ranks.
+/// Returns the parts of this rank's run of faces; absent on all ranks if any of them finds no valid file with
+/// this name. Collective: all ranks call.
+/// @param name  expected text of `division`
 std::optional<std::vector<int>> load_division(const Ranks& ranks, const std::filesystem::path& directory,
                                               const std::string& name, const Runs& faces, int parts);
-/// All ranks call.
+/// Writes the file. Collective: all ranks call.
+/// @param part  part of each face of this rank's run
 /// @throws IoError, ResourceError  on all ranks
 void save_division(const Ranks& ranks, const std::filesystem::path& directory, const std::string& name,
                    const Runs& faces, const std::vector<int>& part);

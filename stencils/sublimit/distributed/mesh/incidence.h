@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Which faces are at which vertices and beside which faces, of a mesh that no process has whole: the rank that has a
-// vertex or a face in its run knows.
+// Incidence of a mesh that no process has whole: each rank knows the faces at the vertices of its run, and the
+// neighbours of the faces of its run.
 #include "sublimit/distributed/mesh/spread_mesh.h"
 
 namespace sublimit {
 
 struct Incidence {
-  Lists faces;       ///< at each vertex of the own run, ascending
-  Lists neighbours;  ///< of each face of the own run: those that share an edge, ascending
-  /// Of each face of the own run: how many of its edges and vertices are in no face of a lower number.
+  Lists faces;       ///< faces at each vertex of this rank's run, ascending
+  Lists neighbours;  ///< for each face of this rank's run: faces that share an edge, ascending
+  /// For each face of this rank's run: number of its edges, and of its vertices, that no face of lower number
+  /// has.
   std::vector<std::int32_t> own_sides, own_corners;
-  Lists creases;  ///< at the lower end of their edges: head, sharpness as bits, head, ... in the order of the file
-  Lists corners;  ///< at their vertex: sharpness as bits, in the order of the file
+  Lists creases;  ///< at the lower vertex of each edge: other vertex, bits of the sharpness, ...
+  Lists corners;  ///< at each vertex: bits of the sharpness, in the order of the file
   std::vector<char> is_hole;
-  std::vector<std::int64_t> isolated;                                ///< vertices of the own run that are in no face
-  bool has_creases = false, has_corners = false, has_holes = false;  ///< of the whole
+  std::vector<std::int64_t> isolated;  ///< vertices of this rank's run that are in no face
+  bool has_creases = false, has_corners = false, has_holes = false;  ///< true if any rank has some
 };
 
-/// @param name  of the mesh
+/// Returns this rank's incidence. Collective: all ranks call.
+/// @param name  name of the mesh for messages
 /// @throws InvalidMesh  on all ranks: a crease where no face has an edge
 Incidence incidence(const Ranks& ranks, const SpreadMesh& mesh, const std::string& name);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// PETSc's objects and errors in the manner of this house.
+// Owners of PETSc's objects, and its errors as exceptions of this library.
 #include <petscmat.h>
 #include <petscsf.h>
 
@@ -12,7 +12,8 @@
 
 namespace sublimit {
 
-/// @throws ResourceError  out of memory;  AnalysisError  all else
+/// Checks the result of a call of PETSc.
+/// @throws ResourceError  out of memory;  AnalysisError  any other error
 inline void check_petsc(PetscErrorCode error) {
   if (error == 0) return;
   const char* text = nullptr;
@@ -22,7 +23,7 @@ inline void check_petsc(PetscErrorCode error) {
   throw AnalysisError(message);
 }
 
-/// Destroyed with its owner.
+/// Owner of an object of PETSc, which its destructor destroys.
 template <class Object>
 struct PetscObjectOf {
   Object value = nullptr;
@@ -38,7 +39,7 @@ struct PetscObjectOf {
   operator Object() const { return value; }
 };
 
-/// y from x by what they have on this rank, for a matrix that is a shell.
+/// Sets y from x for a shell matrix: calls apply(from, to) with this rank's numbers of both vectors.
 template <class Apply>
 PetscErrorCode multiply(Vec x, Vec y, const Apply& apply) {
   const PetscScalar* from = nullptr;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Files of points, and of faces between them, that all ranks write: what they begin with, and where shards stand in
-// them.
+// Files of points, and of faces between them, that all ranks write: their headers, and the positions of shards
+// in them.
 #include <array>
 #include <filesystem>
 #include <span>
@@ -13,20 +13,23 @@
 
 namespace sublimit {
 
-/// @throws InvalidOption  neither .npy nor .ply
+/// Checks the extension of an output.
+/// @throws InvalidOption  an extension other than .npy and .ply
 void check_points_output(const std::filesystem::path& output);
 
-/// What a binary .ply of points in double begins with.
-/// @param num_faces  none: without faces; else each a byte that counts its corners, which have 32 bits each
+/// Returns the header of a binary .ply of points in double.
+/// @param num_faces  number of faces, each stored as a byte with its number of corners, then 32 bits for each
+///                   corner; absent: the file has no faces
 std::string ply_header(std::int64_t num_points, std::optional<std::int64_t> num_faces = {});
 
-/// Consecutive ones become one run.
-/// @param items  of each face: the first one, how many
-/// @param isolated   more of them, that stand before all
+/// Returns the runs of the items of some faces; consecutive items are joined into one run.
+/// @param items     for each face: number of its first item in the whole, and number of items
+/// @param isolated  number of further items, which are the first ones of the whole
 std::vector<PointRun> runs_of(std::span<const std::array<std::int64_t, 2>> items, std::int64_t isolated = 0);
 
-/// Items, run after run, to where each run stands.
-/// @param begin  of the first item of the whole in the file
+/// Writes items to their positions in a file.
+/// @param begin  offset of the first item of the whole in the file, in bytes
+/// @param items  items of all runs, one run after the other
 /// @throws IoError, ResourceError  on this rank
 void write_runs(SharedFile& file, std::int64_t begin, std::int64_t item_size, std::span<const PointRun> runs,
                 std::span<const std::byte> items);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// One file that all ranks write, by MPI-IO: it appears whole or not at all.
+// One file that all ranks write, by MPI-IO. It appears whole or not at all.
 #include <mpi.h>
 
 #include <filesystem>
@@ -13,9 +13,11 @@ namespace sublimit {
 
 class SharedFile {
  public:
-  /// All ranks call. Room for all of it is taken at once, so that a full disk is told before any work. Of a link the
-  /// file at its end is written; devices and pipes are refused.
-  /// @param ranks  which must stay
+  /// Opens a temporary file beside the target and reserves its disk space, so that a full disk is reported
+  /// before any work. If the target is a link, the file at its end is written; devices and pipes are refused.
+  /// Collective: all ranks call.
+  /// @param ranks  must outlive this
+  /// @param bytes  size to reserve; the file may become larger
   /// @throws IoError, ResourceError  on all ranks
   SharedFile(const Ranks& ranks, const std::filesystem::path& target, std::int64_t bytes);
   SharedFile(const Ranks&&, const std::filesystem::path&, std::int64_t) = delete;
@@ -23,12 +25,12 @@ class SharedFile {
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;
 
-  /// By one rank, anywhere.
+  /// Writes bytes at an offset; called by any single rank.
   /// @throws IoError, ResourceError  on this rank
   void write(std::int64_t offset, std::span<const std::byte> bytes);
   void write(std::int64_t offset, std::string_view text) { write(offset, std::as_bytes(std::span(text))); }
   void write(std::int64_t offset, std::span<const double> numbers) { write(offset, std::as_bytes(numbers)); }
-  /// All ranks call, when all have written: the file takes its name.
+  /// Renames the file to the target. Collective: all ranks call, after their last `write`.
   void commit();
 
  private:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What reads the kinds of files for `read_spread_mesh`, each rank its own bytes. Files are mapped: what a rank does not
-// look at it does not have. All ranks call; errors are on all of them.
+// Readers of the kinds of files for `read_spread_mesh`. Each rank parses its own part of the file. Files are
+// mapped, so that parts that a rank does not read take none of its memory. Collective: all ranks call, and
+// errors are thrown on all.
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -10,11 +11,11 @@
 
 namespace sublimit {
 
-/// Lines of an .obj that begin in a rank's bytes.
+/// Reads an .obj: each rank the lines that begin in its share of the bytes.
 SpreadMesh read_obj_parts(const Ranks& ranks, std::string_view text, const std::string& name);
-/// Rows of a binary .ply.
+/// Reads a binary .ply: each rank a share of the rows.
 SpreadMesh read_ply_parts(const Ranks& ranks, std::string_view bytes, const std::string& name);
-/// Tensors of a .safetensors:
+/// Reads a .safetensors with the tensors
 ///
 ///   positions         F64 or F32  #vertices x 3
 ///   face_vertices     I64 or I32  #faces x corners, or one after the other
@@ -24,11 +25,13 @@ SpreadMesh read_ply_parts(const Ranks& ranks, std::string_view bytes, const std:
 ///   holes             I64 or I32  faces
 SpreadMesh read_tensor_parts(const Ranks& ranks, std::span<const std::byte> bytes, const std::string& name);
 
-/// That a mesh, and what is known of its vertices and faces, has room, before any of it is read.
-/// @throws ResourceError  of this rank
+/// Checks that a mesh of so many faces, with its incidence, fits into the memory of this machine, before it is
+/// read.
+/// @throws ResourceError  on this rank
 void check_room(const Ranks& ranks, double faces, const std::string& name);
 
-/// A part's tags, their numbers after those of the ranks before.
+/// Adds the tags, rules and warnings that this rank read to a mesh. Creases and corners are numbered after
+/// those of the ranks before. Collective: all ranks call.
 void take_tags(const Ranks& ranks, const Mesh& from, SpreadMesh& mesh);
 
 }  // namespace sublimit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Poses of a mesh that no process has whole: each rank reads the points of its own run, frame by frame.
+// Poses of a mesh that no process has whole: each rank reads the points of its run, frame by frame.
 #include <filesystem>
 
 #include "sublimit/distributed/mesh/spread_mesh.h"
@@ -10,8 +10,9 @@ namespace sublimit {
 
 class SpreadFrames {
  public:
-  /// A mesh, as `read_spread_mesh` reads it, or an .npy: vertices x channels, or frames x vertices x channels.
-  /// @param ranks  which must stay
+  /// Opens a mesh as `read_spread_mesh` does, or an .npy: vertices x channels, or frames x vertices x channels.
+  /// Collective: all ranks call.
+  /// @param ranks  must outlive this
   /// @throws FormatError, InvalidMesh, IoError  on all ranks
   SpreadFrames(const Ranks& ranks, const std::filesystem::path& path);
   SpreadFrames(const Ranks&&, const std::filesystem::path&) = delete;
@@ -22,7 +23,7 @@ class SpreadFrames {
   bool has_frames() const { return has_frames_; }
   const std::optional<SpreadMesh>& mesh() const { return mesh_; }
 
-  /// The own run of the next frame, interleaved.
+  /// Returns the points of this rank's run in the next frame, interleaved. Collective: all ranks call.
   /// @throws InvalidMesh  on all ranks: a number that is not finite
   std::vector<double> next();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A table that no process has whole: ranks have shards of it, and runs of the control points.
+// A table that no process has whole: each rank has some of its shards, and a run of the control points.
 #include <memory>
 
 #include "sublimit/distributed/mesh/halo.h"
@@ -9,26 +9,28 @@
 
 namespace sublimit {
 
-/// Calls are of all ranks together, one after the other: they share memory for inputs.
+/// Applies the shards of all ranks. Functions that take points are collective: all ranks call them, one call at
+/// a time, since calls share the memory for inputs.
 class SpreadTable {
  public:
-  /// @param shards  of this rank, any number
-  /// @param runs    of the control points
+  /// @param shards  shards of this rank, any number
+  /// @param runs    runs of the control points
   SpreadTable(const Ranks& ranks, std::vector<LoadedShard> shards, Runs runs);
 
   const Runs& control_points() const { return runs_; }
-  /// Of this rank: shard after shard.
+  /// Returns the number of points of this rank's shards.
   std::int64_t num_points() const { return num_points_; }
   const std::vector<LoadedShard>& shards() const { return shards_; }
   const Halo& halo() const { return halo_; }
 
-  /// Points of this rank's shards from control points of its run, interleaved; while those of others are on their way,
-  /// patches that need none of them are made. All ranks call.
+  /// Sets the points of this rank's shards, shard after shard, from the control points of the ranks' runs, all
+  /// interleaved. Patches that need no control points of other ranks are computed while these are being
+  /// received.
   void apply(std::span<const double> own, int channels, std::span<double> points) const;
   /// Applies one shard at a time, to bound memory; calls `made` after each finished shard.
   void apply(std::span<const double> own, int channels,
              const std::function<void(const LoadedShard&, std::span<const double>)>& made) const;
-  /// own = transpose * values. Sums of ranks in any order.
+  /// Sets `own` to the transpose times `values`. The order of sums over ranks is not fixed.
   void apply_transpose(std::span<const double> values, int channels, std::span<double> own) const;
 
  private:
@@ -36,17 +38,18 @@ class SpreadTable {
                    std::span<double> points) const;
   std::vector<LoadedShard> shards_;
   Runs runs_;
-  std::vector<std::int64_t> first_input_;  // of each shard, and the end
+  std::vector<std::int64_t> first_input_;  // first input of each shard, and the end
   std::int64_t num_points_ = 0;
   Halo halo_;
   std::vector<std::vector<std::int64_t>>
-      num_inner_;  // of each shard: of each group, how many patches need no others' points
+      num_inner_;  // by shard and group: number of patches that need this rank's control points only
   std::vector<std::unique_ptr<PatternEvaluator<double>>> evaluators_;
   mutable std::vector<double> inputs_;
 };
 
-/// As PETSc's: MatMult is `apply` of one channel, MatMultTranspose its transpose; for any KSP.
-/// @param table  must stay
+/// Returns the table as a shell matrix of PETSc, for any KSP: MatMult is `apply` with one channel,
+/// MatMultTranspose is `apply_transpose`.
+/// @param table  must outlive the result
 PetscObjectOf<Mat> matrix(const SpreadTable& table);
 PetscObjectOf<Mat> matrix(const SpreadTable&&) = delete;
 

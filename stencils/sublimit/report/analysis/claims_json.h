@@ -22,18 +22,20 @@ Finding interpolation(const Json& neighborhoods);
 /// Returns whether new points are convex combinations of old ones, by the rows of all neighbourhoods in the list.
 Finding convexity(const Json& neighborhoods);
 
-/// The least k of which C^k is disproved, if there is one: exponents alone do not tell C^(k-1,1) from C^k.
+/// Returns the least k for which a verdict disproves C^k; absent if there is none. Hoelder exponents alone do
+/// not distinguish C^(k-1,1) from C^k.
 std::optional<int> disproved_continuity(const Json& verdicts);
 
-/// Gives interior neighbourhoods of regular valence what is proved of regular meshes.
+/// Replaces undecided verdicts on interior neighbourhoods of regular valence by the proofs for regular meshes.
 /// @param scheme  SCHEME with `regular` and `neighborhoods`
 void use_regular(Json& scheme);
 
-/// CLAIMS of a scheme: those on convex hulls and interpolation only if they are made.
-/// @param scheme   SCHEME with `mesh`, `regular` (or null) and `neighborhoods`
+/// Returns CLAIMS of a scheme. Claims on convex hulls and interpolation are included only if the scheme makes
+/// them.
+/// @param scheme  SCHEME with `mesh`, `regular` (or null) and `neighborhoods`
 Json claims_json(const Claims& claims, const Json& scheme);
 
-/// ROW of the summary; claims have no part in it.
+/// Returns ROW of the summary, which does not depend on the claims.
 /// @param scheme  SCHEME
 Json summary_row(const Json& scheme);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Local matrices and characteristic maps as files of their own.
+// Export of local matrices and characteristic maps to files.
 #include <filesystem>
 #include <vector>
 

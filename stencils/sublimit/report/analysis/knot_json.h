@@ -6,8 +6,8 @@
 
 namespace sublimit::report {
 
-/// KNOTS of a scheme; null of those that know no intervals.
-/// @param all_valences  VERDICT of equal intervals for all valences, or null
+/// Returns KNOTS of a scheme; null if the scheme does not use knot intervals.
+/// @param all_valences  VERDICT on all valences with equal intervals, or null
 Json knot_json(const Scheme<double>& scheme, const Json& all_valences);
 
 }  // namespace sublimit::report

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// `masks` of a neighbourhood: decimals from the limit that surfaces are evaluated with, and the exact numbers beside
-// them.
+// `masks` of a neighbourhood: decimals from the limit masks by which surfaces are evaluated, and exact numbers
+// beside them.
 #include "sublimit/certificates/spectra/exact_masks.h"
 #include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::report {
 
-/// @param lambda  the subdominant eigenvalue, where it is known exactly
-/// @return  null where the scheme has no limit there (and `why` says why not)
+/// Returns the masks of a neighbourhood other than a dart.
+/// @param lambda  subdominant eigenvalue, if it is known exactly
+/// @param why     set to the reason if the scheme has no limit there
+/// @return  null if the scheme has no limit there
 Json masks_json(const Scheme<double>& scheme, const LocalPatch<Algebraic>* exact, const LocalType& type,
                 const std::optional<Algebraic>& lambda, std::string& why);
 

@@ -10,17 +10,18 @@
 
 namespace sublimit::report {
 
-/// `characteristic_map` of a neighbourhood; null where the leading mode is not one of block 1.
+/// Returns `characteristic_map` of a neighbourhood; null if the leading mode is not in Fourier block 1.
 /// @param pieces  types of the scheme's surfaces, shared between calls
 Json characteristic_map_json(const std::shared_ptr<LimitCache>& pieces, const LocalModes& modes);
 Json eigenfunctions_json(const LocalModes& modes);
 
-/// `surface` and `normals` of a neighbourhood of n sectors, alone.
+/// `surface` and `normals` of an isolated neighbourhood of n sectors.
 struct SampleSurface {
   Json surface, normals;
 };
-/// @param drawn  whether to make `surface`, which is large
-/// @param dart   a closed fan around whose first spoke is sharp, whatever `type.open` says
+/// Returns the limit surface of generic data around a centre.
+/// @param drawn  true: also make `surface`, which is large
+/// @param dart   true: a closed fan whose first spoke is sharp, whatever `type.open` is
 SampleSurface sample_surface(const std::shared_ptr<LimitCache>& pieces, const LocalType& type, bool drawn,
                              bool dart = false);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// One neighbourhood of a report: what the surface is like at a centre of one kind, alone among regular points.
+// One neighbourhood of a report: the behaviour of the surface at an isolated centre of some kind among regular
+// points.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,37 +26,41 @@ struct NeighborhoodKind {
 /// A side of a crease follows the boundary with as many faces.
 std::vector<NeighborhoodKind> neighborhoods(const Scheme<double>& scheme, const std::vector<int>& valences);
 
-/// The centre of such a neighbourhood, alone; that of a dart is open from its sharp edge to that edge.
+/// Returns the type of the isolated centre of a neighbourhood. A dart has an open type, cut along its sharp
+/// edge.
 LocalType local_type(const NeighborhoodKind& kind);
 /// Returns the exact local matrix of a neighbourhood; absent if the scheme has no such neighbourhood.
 std::optional<LocalPatch<Algebraic>> local_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind);
 
 /// Data that the neighbourhoods of one scheme share.
 struct SharedAnalysis {
-  std::optional<C1Prover> prover;     ///< none where the rules on regular meshes are not one mask
+  std::optional<C1Prover> prover;     ///< absent if the rules on regular meshes are not one mask
   std::shared_ptr<LimitCache> types;  ///< cache of its limit surfaces
 };
 SharedAnalysis shared_analysis(const ReportedScheme& scheme);
 
-/// The local matrix that verdicts are about: of a closed centre with all rings that influence the surface next to it.
-/// @param mask  of regular meshes, if there is one
-/// @return  nothing where the scheme has no such place
+/// Returns the local matrix that verdicts refer to: for a closed centre with all rings that influence the
+/// surface next to it.
+/// @param mask  mask of regular meshes, or null
+/// @return  absent if the scheme has no such neighbourhood
 std::optional<LocalPatch<Algebraic>> analysed_patch(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind,
                                                     const RegularMask<Algebraic>* mask);
 
 /// Returns the verdicts that the masks of a neighbourhood and their spectrum decide alone: affine invariance,
 /// convergence and C^1 of a closed centre, or the tangent plane of an open one or a dart.
-/// @param mask  of regular meshes, if there is one
-/// @return  none where the scheme has no such place
+/// @param mask  mask of regular meshes, or null
+/// @return  empty if the scheme has no such neighbourhood
 std::vector<Verdict> spectral_verdicts(const Scheme<Algebraic>& scheme, const NeighborhoodKind& kind,
                                        const RegularMask<Algebraic>* mask);
 
-/// `rows` of a neighbourhood: what its weights show, exactly. `keeps_centre` is null where no point is in the centre.
+/// Returns `rows` of a neighbourhood, exact properties of its weights. `keeps_centre` is null if no point is in
+/// the centre.
 Json rows_json(const LocalPatch<Algebraic>& patch);
 
-/// NEIGHBORHOOD, or null where the scheme has no such place.
-/// @param drawn  with the limit surface of generic data
-/// @note  A side of a crease whose matrix is a border's is this one word, `same_as`: see crease_json.
+/// Returns NEIGHBORHOOD; null if the scheme has no such neighbourhood.
+/// @param drawn  true: include the limit surface of generic data
+/// @note  The result for a side of a crease whose matrix is that of the boundary is only `same_as`, see
+///        crease_json.
 Json neighborhood(const ReportedScheme& scheme, const SharedAnalysis& shared, const NeighborhoodKind& kind, bool drawn);
 
 /// Returns the results for a side of a crease whose matrix is that of the boundary.

@@ -19,11 +19,12 @@ struct ExactScheme {
   RegularMask<Algebraic> mask;
 };
 
-/// The registry's scheme of this name; nothing if there is none, or none with these options or one mask.
+/// Returns the registered scheme of this name; absent if there is none, or none with these options, or if it
+/// has no single mask on regular meshes.
 std::optional<ExactScheme> registered_scheme(const std::string& name, const SchemeOptions& options);
 
-/// Returns what differs between a witness of C^1 (certificates/witness/witness.h), which the checker has accepted, and
-/// the scheme; "" if nothing does.
+/// Returns the differences between a witness of C^1 (certificates/witness/witness.h), which the checker has
+/// accepted, and the scheme; empty if there are none.
 std::string differs_from(const ExactScheme& exact, const nlohmann::ordered_json& witness);
 
 }  // namespace sublimit::report

@@ -12,22 +12,23 @@ namespace sublimit::report {
 
 Json to_json(const CurveRegularity& regularity);
 Json to_json(const SurfaceRegularity& regularity);
-/// Values that the scheme does not take are null in every series.
+/// Returns SWEEP. Values that the scheme does not accept are null in every series.
 Json to_json(const Sweep& sweep);
-/// @throws InvalidMesh  as curve_joints does
+/// Returns CURVE.
+/// @throws InvalidMesh  as curve_joints
 Json curve_json(const BezierCurve& curve, double tolerance = 1e-9);
 
-/// `regular` of a surface or curve scheme by name; null for Hermite schemes.
+/// Returns `regular` of a registered surface or curve scheme; null for Hermite schemes.
 /// @throws InvalidOption  as find_scheme; no scheme of that name
 Json regular_json(const std::string& scheme, const SchemeOptions& options = {});
 
 /// Returns the results for a scheme that need not be registered; null if its regular mask has irrational weights.
 Json regular_json(const Scheme<Algebraic>& scheme);
 
-/// A whole SCHEME of kind curve, with its claims held against what was found.
+/// Returns SCHEME for a curve scheme, with verdicts on its claims.
 /// @throws InvalidOption  no curve scheme of that name
 Json curve_scheme_json(const std::string& scheme, const SchemeOptions& options = {});
-/// A SCHEME of a typed mask: no claims.
+/// Returns SCHEME for a mask given as text, which has no claims.
 /// @throws InvalidOption  as typed_mask
 Json mask_scheme_json(const std::string& mask);
 

@@ -17,7 +17,7 @@ namespace sublimit::report {
 /// @throws nlohmann::json::exception, FormatError  no REGULAR
 std::vector<std::string> regular_differs(const Json& scheme, const ExactScheme* exact, bool analysed = true);
 
-/// `rows` of a neighbourhood by the masks of the registered scheme.
+/// Returns `rows` of a neighbourhood, computed from the masks of the registered scheme.
 /// @throws FormatError  no such kind of neighbourhood
 Json rows_again(const Json& neighborhood, const ExactScheme& exact);
 

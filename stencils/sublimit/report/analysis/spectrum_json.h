@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// `spectrum` and what follows from it: lambda, mu, their ratio, and the blocks that have mu.
+// `spectrum` of a neighbourhood, and the entries that follow from it: lambda, mu, their ratio, and the blocks
+// with mu.
 #include "sublimit/certificates/spectra/exact_spectrum.h"
 #include "sublimit/stencils/files/numbers.h"
 
@@ -9,7 +10,8 @@ namespace sublimit::report {
 /// Adds `spectrum`, `lambda`, `mu`, `ratio` and `mu_blocks` to a neighbourhood.
 void add_spectrum(Json& neighborhood, const ExactSpectrum& spectrum);
 
-/// The subdominant eigenvalue, if it comes from block 1 alone, is real, and lies in the field of the masks.
+/// Returns the subdominant eigenvalue if it belongs to block 1 only, is real, and lies in the field of the
+/// masks.
 std::optional<Algebraic> subdominant_in_field(const ExactSpectrum& spectrum);
 
 }  // namespace sublimit::report

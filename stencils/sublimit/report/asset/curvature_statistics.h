@@ -8,21 +8,22 @@ namespace sublimit::asset {
 
 /// Properties of a scheme's limits.
 struct LimitTraits {
-  bool polynomial = true;  ///< by pieces: any place costs little, and has all derivatives
-  bool dual = false;       ///< pieces end at halves of faces
-  bool thirds = false;     ///< if not by polynomials: at places that halving, or cutting in three, comes to
+  bool polynomial = true;  ///< piecewise polynomial: places are cheap, and have all derivatives
+  bool dual = false;       ///< pieces end in the middle of faces
+  bool thirds = false;     ///< without polynomials: evaluated at thirds, otherwise at halves
 };
 
-/// @param samples  about so many at most, but one a face; many less of limits that are no polynomials
-/// @param tick     called as work is done, with the part of it
+/// Returns the statistics of curvature.
+/// @param samples  about the most samples, but at least one per face; a fiftieth of it without polynomials
+/// @param tick     if given, called with the fraction of the work done
 AssetCurvature curvature_statistics(const LimitMap& surface, const LimitSurface& bound, std::int64_t samples,
                                     const LimitTraits& traits, const std::function<void(double)>& tick);
 
 /// Places at the same parameters of every square or triangle, in the order of addresses.
 struct CellMiddles {
   bool triangles = false;
-  int side = 1;                        ///< cells
-  double middle = .5, third = 1. / 3;  ///< parameters in squares and in triangles
+  int side = 1;                        ///< cells on each side of a face
+  double middle = .5, third = 1. / 3;  ///< parameters of samples in cells that are squares or triangles
   std::int64_t per_face() const { return std::int64_t(side) * side; }
   Place operator()(std::int64_t number) const;
 };

@@ -6,7 +6,9 @@
 
 namespace sublimit::asset {
 
-/// @param faces  at most, but one a square or triangle; nothing where that is ten times as many. Holes are left out.
+/// Returns the surface as a mesh, without holes.
+/// @param faces  most faces, but at least one for each address; the result is empty if that is ten times as
+///               many
 AssetSurface display_surface(const LimitMap& surface, const LimitSurface& bound, const LimitTraits& traits,
                              Index faces);
 

@@ -5,7 +5,7 @@
 
 namespace sublimit::asset {
 
-/// A vertex by its faces and by the edges that stay sharp.
+/// Kind of a vertex, by its faces and by the edges that stay sharp.
 struct VertexKind {
   enum class What : std::uint8_t {
     regular,
@@ -19,13 +19,13 @@ struct VertexKind {
     in_hole  ///< none of its faces is part of the limit
   };
   What what = What::regular;
-  bool at_border = false;    ///< a corner or dart on the border
-  Index n = 0;               ///< faces
-  std::vector<Index> sides;  ///< faces of each side, the most crowded first; empty where nothing is cut
+  bool at_border = false;    ///< true for corners and darts on the border
+  Index n = 0;               ///< number of faces
+  std::vector<Index> sides;  ///< faces of each side of sharp edges, descending; empty if there are none
   PlaneVerdict plane = PlaneVerdict::unknown;
 };
 
-/// @param level  of control points
+/// @param level  control level
 VertexKind vertex_kind(const Scheme<double>& scheme, const Level& level, Vertex v);
 PointVerdict verdict_of(const VertexKind& kind, PointVerdicts& verdicts);
 
@@ -35,9 +35,10 @@ inline Index regular_size(const Scheme<double>& scheme) { return scheme.face_siz
 struct Inventory {
   std::vector<VertexKind> vertices;
   std::vector<AssetKind> kinds;
-  std::int64_t unbounded = 0;  ///< points inside with divergent or logarithmic curvature
+  std::int64_t unbounded = 0;  ///< interior points with divergent or logarithmic curvature
 };
-/// @param listed  examples of each kind
+/// Returns the kinds of all points.
+/// @param listed  most examples of each kind
 Inventory inventory(const Scheme<double>& scheme, const Level& level, PointVerdicts& verdicts, Index listed);
 
 }  // namespace sublimit::asset

@@ -13,13 +13,13 @@ namespace sublimit::asset {
 class PointVerdicts {
  public:
   explicit PointVerdicts(const Scheme<double>& scheme) : cache_(scheme) {}
-  /// A vertex inside with n faces.
+  /// Returns the verdict on an interior vertex with n faces.
   const PointVerdict& inside(Index n) { return of({Centre::Kind::vertex, n, false, false, 0}); }
-  /// The middle of a face with n corners.
+  /// Returns the verdict on the middle of a face with n corners.
   const PointVerdict& face(Index n) { return of({Centre::Kind::face, n, false, false, 0}); }
-  /// One side of a border, a crease or a corner, with n faces.
+  /// Returns the verdict on one side of a border, a crease or a corner, with n faces.
   const PointVerdict& side(Index n, bool corner) { return of({Centre::Kind::vertex, n, true, corner, 0}); }
-  /// The end of one sharp edge, among n faces.
+  /// Returns the verdict on the end of a single sharp edge among n faces.
   const PointVerdict& dart(Index n);
 
  private:
@@ -29,8 +29,8 @@ class PointVerdicts {
   std::map<Index, PointVerdict> darts_;
 };
 
-/// Larger points take too much time to look at their curvature, or at the seams of patches around them: their matrices
-/// grow with the square of n.
+/// Most faces at a point whose curvature, and whose seams of patches, are analysed. The cost of their matrices
+/// grows with the square of n.
 inline constexpr Index most_faces = 40;
 
 }  // namespace sublimit::asset

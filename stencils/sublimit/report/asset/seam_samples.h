@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Seams between patches, and pairs of places on both sides that are compared.
+// Seams between patches, and pairs of places on both sides of a seam that are compared.
 #include "sublimit/report/asset/inventory.h"
 #include "sublimit/report/asset/surface_places.h"
 
@@ -11,7 +11,7 @@ struct Seam {
   HalfEdge half = no_half_edge;  ///< the edge, the face, or the vertex at its tail
   bool has_plane = true;         ///< true if the point has a tangent plane
 };
-/// Seams with their samples: pairs on both sides, or, around a point, one in each face.
+/// Seams with their samples: pairs of places on both sides of a seam, or around a point one place in each face.
 struct SeamSamples {
   struct Group {
     Seam seam;
@@ -25,12 +25,12 @@ struct SeamSamples {
 class SeamPlaces {
  public:
   /// @param surface, inventory  must outlive this
-  /// @param polynomial  true if pieces are polynomials, which are distinguished next to a seam; else patches have no
-  ///                    inside
+  /// @param polynomial  true if pieces are polynomials; otherwise places are at repeated halves or thirds,
+  ///                    where derivatives are known, and seams inside faces are left out
   SeamPlaces(const Scheme<double>& scheme, const LimitMap& surface, const Inventory& inventory, bool polynomial);
   SeamPlaces(const Scheme<double>&, const LimitMap&&, const Inventory&, bool) = delete;
   SeamPlaces(const Scheme<double>&, const LimitMap&, const Inventory&&, bool) = delete;
-  /// Edges, then faces, then vertices: whatever has a number has zero or more groups.
+  /// Returns the number of elements that may have seams: edges, then faces, then vertices.
   std::int64_t size() const;
   void add(std::int64_t number, SeamSamples& out) const;
 
@@ -48,7 +48,7 @@ class SeamPlaces {
   const LimitMap& surface_;
   const Inventory& inventory_;
   bool polynomial_, dual_, mid_edge_;
-  std::vector<double> along_;  // an edge
+  std::vector<double> along_;  // parameters of samples on an edge
   std::int64_t creases_ = 0, borders_ = 0, smooth_ = 0;
 };
 

@@ -6,9 +6,10 @@
 
 namespace sublimit::asset {
 
-/// @param surface   with its points
-/// @param diagonal  of the box of the control points
-/// @param tick      called as work is done, with the part of it
+/// Measures the deviations at all seams.
+/// @param surface   limit of the mesh
+/// @param diagonal  diagonal of the bounding box of the control points
+/// @param tick      called with the fraction of the work done
 AssetSeams measure_seams(const SeamPlaces& places, const Topology& topology, const LimitSurface& surface,
                          double diagonal, const SeamTolerance& tolerance, Index listed,
                          const std::function<void(double)>& tick);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Vertices where the limit has no normal: not for want of a plane, but because the control points make it degenerate.
+// Vertices where the scheme has a tangent plane, but the limit has no normal because the control points are
+// degenerate there.
 #include "sublimit/report/asset/inventory.h"
 #include "sublimit/surface/limit_surface.h"
 

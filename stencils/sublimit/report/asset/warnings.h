@@ -7,11 +7,12 @@
 
 namespace sublimit::asset {
 
-/// @param points  control points
+/// Returns all warnings on a mesh.
+/// @param points  positions of the control points
 std::vector<AssetWarning> warnings(const Scheme<double>& scheme, const Level& level, const Points& points,
                                    const Inventory& inventory, PointVerdicts& verdicts, const AssetOptions& options);
 
-/// Faces without area, that cross themselves, or that are folded back onto a neighbour.
+/// Returns warnings on faces without area, that cross themselves, or that are folded back onto a neighbour.
 std::vector<AssetWarning> face_warnings(const Level& level, const Points& points, Index listed);
 
 /// Counts places of one kind, keeping the first ones.

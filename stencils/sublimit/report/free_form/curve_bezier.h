@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A free-form curve of a file as its Bezier pieces, one for each span of its knots, in doubles and in ratios.
+// A free-form curve of a file as Bezier pieces, one for each span of its knots, in doubles and in exact ratios.
 #include <algorithm>
 #include <vector>
 
@@ -12,18 +12,19 @@ namespace sublimit {
 
 struct CurveBezier {
   std::vector<BezierPiece<double>> pieces;  ///< at least one
-  std::vector<double> breaks;               ///< parameters of their ends, one more
-  /// Pieces without rounding, of the doubles in the file; empty for bases other than Bezier and B-spline, whose pieces
-  /// are computed.
+  std::vector<double> breaks;               ///< parameters of the ends of pieces, one more than pieces
+  /// Pieces computed without rounding from the doubles in the file; empty for bases other than Bezier and
+  /// B-spline.
   std::vector<BezierPiece<Rational>> exact;
 };
 
-/// @throws InvalidParameter  knots that make no B-spline
+/// Returns the Bezier pieces of a curve.
+/// @throws InvalidParameter  knots that do not make a B-spline
 CurveBezier curve_bezier(const FreeForm& shapes, const FreeFormCurve& curve);
 
-/// The Bezier pieces of a part of a spline curve's domain.
-/// @param columns   3 numbers for each control point, or 4 if it is rational
-/// @param ends      gets the parameters where they end
+/// Returns the Bezier pieces of a part of a spline curve's domain.
+/// @param columns   3 numbers for each control point, or 4 if the curve is rational
+/// @param ends      set to the parameters of the ends of pieces
 template <class T>
 std::vector<BezierPiece<T>> bezier_pieces_of(const Knots<T>& knots, const std::vector<T>& columns, bool rational,
                                              const T& first, const T& last, std::vector<T>& ends) {

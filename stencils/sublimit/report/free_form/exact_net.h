@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Exact nets of recipes without rounding: constructions of rational numbers (thirds of tangents, blossoms, boolean
-// sums) once more in ratios, from the numbers that the recipe has: its fractions, and exactly its doubles.
+// Nets of recipes without rounding. Constructions that need rational operations only (thirds of tangents,
+// blossoms, boolean sums) are repeated in ratios, from the fractions and the exact doubles of the recipe.
 #include <optional>
 #include <vector>
 
@@ -11,12 +11,12 @@
 
 namespace sublimit {
 
-/// The Bezier pieces of a recipe's curve in space, one for each span of its knots.
-/// @return  nothing of kinds whose control points are no ratios of their numbers, or solve large systems
+/// Returns the Bezier pieces of a recipe's curve in space, one for each span of its knots.
+/// @return  absent for kinds whose control points are not rational functions of their numbers, or solve large
+///          systems
 std::optional<std::vector<BezierPiece<Rational>>> exact_pieces(const Recipe& recipe);
 
-/// The net of a recipe's surface.
-/// @return  nothing of kinds whose control points are no ratios of their numbers, or solve large systems
+/// Returns the net of a recipe's surface; absent as for `exact_pieces`.
 std::optional<SeamNet<Rational>> exact_net(const Recipe& recipe);
 
 }  // namespace sublimit

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Drawings as inline SVG in figures: a title for screen readers, a caption for all, colours from the page.
+// Drawings as inline SVG in figures: with a title for screen readers, a caption, and colours from the page's
+// style.
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,14 +10,14 @@
 
 namespace sublimit::page {
 
-/// `<svg>` to `</svg>` of this size around a body; title and description are plain text.
+/// Returns an SVG element of this size in pixels around a body; title and description are plain text.
 std::string drawing(double width, double height, const std::string& title, const std::string& description,
                     const std::string& body);
 
-/// A figure: an SVG and its caption (HTML); `broad` ones take a row of their own.
+/// Returns a figure of an SVG and its caption (HTML). A broad figure takes a whole row.
 std::string figure(const std::string& svg, const std::string& caption, bool broad = false);
 
-/// Several figures beside each other, as many as fit.
+/// Returns several figures beside each other, as many in a row as fit.
 std::string figures(const std::string& all);
 
 struct TextStyle {
@@ -27,16 +28,16 @@ std::string text(double x, double y, const std::string& words, TextStyle style =
 std::string line(double x1, double y1, double x2, double y2, const char* css);
 std::string circle(double x, double y, double radius, const std::string& css, const std::string& title = {});
 
-/// Path data through points in pixels: open, or closed.
+/// Returns path data through points in pixels.
 std::string path_data(const std::vector<std::pair<double, double>>& points, bool closed = false);
 std::string path(const std::string& data, const std::string& css);
 
-/// One of eight signs that differ in shape, not only in colour.
+/// Returns one of eight marks, which differ in shape, not only in colour.
 std::string mark(int kind, double x, double y, double size = 3.6);
 
-/// Names of what marks or fills mean, below a drawing: pairs of a small SVG body (22 x 12) and words.
+/// Returns a legend for below a drawing, from pairs of a small SVG body (22 x 12 pixels) and its meaning.
 std::string legend(const std::vector<std::pair<std::string, std::string>>& items);
-/// A patch of a colour for a legend.
+/// Returns a filled rectangle for a legend.
 std::string swatch(const std::string& css);
 std::string swatch_of(const std::string& color);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Fractions as reports write them, "9/64": read, and brought to one denominator, as textbooks print masks.
+// Fractions as reports write them, "9/64": reading them, and bringing masks to a common denominator, as
+// textbooks do.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,7 +15,7 @@ struct Fraction {
   std::int64_t top = 0, bottom = 1;
 };
 
-/// A fraction or whole number; none for other words (cosines, roots) and what is too long.
+/// Reads a fraction or whole number; absent for other exact numbers (cosines, roots) and for too many digits.
 std::optional<Fraction> fraction(const std::string& text);
 
 /// Weights over a common denominator.
@@ -22,7 +23,9 @@ struct Common {
   std::int64_t denominator = 1;
   std::vector<std::int64_t> tops;
 };
-/// @param entries  array of {"exact": ...}; none if one of them is no fraction or the denominator passes a million
+/// Returns the weights of entries over a common denominator; absent if one of them is not a fraction or the
+/// denominator exceeds a million.
+/// @param entries  array of {"exact": ...}
 std::optional<Common> common_denominator(const Json& entries);
 
 }  // namespace sublimit::page

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Reading a report that may lack anything: what is not there is null.
+// Reading a report in which any entry may be missing: missing entries are null.
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace sublimit::page {
 
 using Json = nlohmann::ordered_json;
 
-/// The value of a key; null if there is none or this is no object.
+/// Returns the value of a key; null if there is none, or if `object` is not an object.
 inline const Json& at(const Json& object, const char* key) {
   static const Json null;
   if (!object.is_object()) return null;
@@ -37,7 +37,7 @@ inline std::string string(const Json& value, std::string otherwise = {}) {
 
 inline bool is_true(const Json& value) { return value.is_boolean() && value.get<bool>(); }
 
-/// Element i of an array; null outside.
+/// Returns element i of an array; null if i is out of range.
 template <std::integral I>
 const Json& at(const Json& array, I index) {
   static const Json null;
@@ -45,7 +45,7 @@ const Json& at(const Json& array, I index) {
   return array.is_array() && i < array.size() ? array[i] : null;
 }
 
-/// The first verdict on a property; null if there is none.
+/// Returns the first verdict on a property; null if there is none.
 inline const Json& verdict_on(const Json& verdicts, const char* property) {
   static const Json null;
   for (const Json& v : verdicts)

@@ -12,20 +12,19 @@ namespace sublimit::page {
 struct MapNet {
   std::vector<Point> points;
   std::vector<std::array<double, 3>> labels;  ///< sector, x, y
-  std::vector<std::vector<int>> faces;        ///< indices that exist, at least three
+  std::vector<std::vector<int>> faces;        ///< valid indices, at least three for each face
 };
 
-/// {"net": [{"at": [X, Y]}], "faces": [...]}; no points if one is missing.
+/// Reads {"net": [{"at": [X, Y]}], "faces": [...]}. The result has no points if an entry is missing.
 MapNet map_net(const Json& characteristic_map);
 
-/// The heights of an eigenfunction, one per point of the net; none if they do not fit.
+/// Returns the heights of an eigenfunction at the points of the net; empty if their number differs.
 std::vector<double> heights_of(const Json& eigenfunction, const MapNet& net);
 
-/// Heights turned by one sector of n, as another symmetric choice of the first sector would have them; none if the net
-/// is not symmetric.
+/// Returns heights rotated by one of n sectors; empty if the net does not have this symmetry.
 std::vector<double> turned_by_a_sector(const std::vector<double>& heights, const MapNet& net, int n);
 
-/// Normals of vertices, means over their faces.
+/// Returns normals at vertices, averaged over their faces.
 Points soft_normals(const PictureMesh& mesh);
 
 }  // namespace sublimit::page

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Masks as diagrams: discs at the points, as large as their weights, with the weights as fractions in or beside them.
+// Masks as diagrams: a disc at each point, with a size by its weight, and the weight as a fraction in or beside
+// it.
 #include <string>
 
 #include "sublimit/report/page/json.h"
 
 namespace sublimit::page {
 
-/// The mask on the regular grid, over its common denominator where it has one; with caption.
+/// Returns the figure of a mask on the regular grid, with weights over a common denominator if there is one.
 std::string regular_mask_figure(const Json& regular, const std::string& scheme);
 
-/// The support of the basis function on the control mesh; empty without outline.
+/// Returns the figure of the basis function's support on the control mesh; empty if the report has no outline
+/// of it.
 std::string support_figure(const Json& regular, const std::string& scheme);
 
-/// The position and tangent masks of a neighbourhood: diagrams, and folded away the numbers.
+/// Returns the position and tangent masks of a neighbourhood as diagrams, with the numbers in a closed section.
 std::string neighborhood_masks(const Json& neighborhood, const std::string& name);
 
 }  // namespace sublimit::page

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A continuity report as one page of HTML that needs nothing but itself: no network, no scripts, pictures inline.
+// A continuity report as one self-contained page of HTML: no network access, no scripts, pictures inline.
 #include <nlohmann/json.hpp>
 
 #include <string>
 
 namespace sublimit {
 
-/// The page of a report.
+/// Returns the page of a report.
 ///
-/// Drawn from the report alone (stencils/report_format.md); unknown keys are ignored, quantities that are null are
-/// dashes. Pictures of surfaces are many bytes, so of many valences only some get them, and the page says which.
-/// @throws FormatError  if this is not a report, or of a version that is not known
+/// It is made from the report only (stencils/report_format.md). Unknown keys are ignored, and null quantities
+/// shown as dashes. Pictures of surfaces are large, so if there are many valences only some have them, and the
+/// page says which.
+/// @throws FormatError  not a report, or one of an unknown version
 /// @note  Deterministic: the same report gives the same bytes.
 std::string report_page(const nlohmann::ordered_json& report);
 
-/// The page's first figure as an SVG file of its own; empty if it has none.
+/// Returns the first figure of the page as the text of an SVG file; empty if it has none.
 /// @throws FormatError  as report_page
 std::string report_picture(const nlohmann::ordered_json& report);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Points of the plane and where they go on the paper.
+// Points of the plane, and their positions on a drawing.
 #include <Eigen/Core>
 
 #include <string>
@@ -13,17 +13,17 @@ namespace sublimit::page {
 
 using Point = Eigen::Vector2d;
 
-/// The grid of a regular part: "line", "square", "triangular" where the third direction of edges is (1, 1), or
-/// "triangular-" where it is (1, -1), which the mask tells.
+/// Returns the grid of a regular part: "line", "square", or "triangular" if the third direction of edges is (1,
+/// 1) and "triangular-" if it is (1, -1), according to the mask.
 std::string grid_of(const Json& regular);
 
-/// A point of such a grid; triangles are equilateral.
+/// Returns the position of a grid point; triangles are equilateral.
 Point on_grid(const std::string& grid, double u, double v);
 
 /// Returns the position of a label [sector, x, y] of a neighbourhood, on spokes at angles of `turn` radians.
 Point at_label(const Json& label, double turn);
 
-/// Pixels of points: as large as fits, y upwards, the drawing no higher than it needs.
+/// A map from points to pixels: as large as fits, y upwards, and no higher than needed.
 struct Fit {
   double scale = 1, width = 0, height = 0;
   Point middle = Point::Zero();
@@ -33,7 +33,7 @@ struct Fit {
 };
 Fit fit_points(const std::vector<Point>& points, double width, double most_height, double margin);
 
-/// Is a point inside a polygon?
+/// Returns true if a point is inside a polygon.
 bool inside(const std::vector<Point>& polygon, const Point& p);
 
 }  // namespace sublimit::page

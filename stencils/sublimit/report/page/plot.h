@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Plots of numbers over a number: axes with round ticks, lines with gaps where there is nothing, marks that differ in
+// Plots of series of numbers: axes with round ticks, lines with gaps at absent values, marks that differ in
 // shape.
 #include <optional>
 #include <string>
@@ -10,9 +10,9 @@
 namespace sublimit::page {
 
 struct Series {
-  std::string name;  ///< HTML; without one, not in the legend
+  std::string name;  ///< name in the legend, HTML; empty: not in the legend
   std::vector<std::pair<double, std::optional<double>>> points = {};
-  int kind = 0;  ///< colour and mark
+  int kind = 0;  ///< number of the colour and mark
   bool marks = true, line = true, faint = false, dashed = false;
 };
 
@@ -31,16 +31,16 @@ struct Plot {
   double width = 380, height = 250;
 };
 
-/// SVG and legend; empty if no series has a point.
+/// A plot as SVG, and its legend; both are empty if no series has a point.
 struct Drawn {
   std::string svg, legend;
 };
 Drawn draw(const Plot& plot);
 
-/// The figure of a plot with a caption.
+/// Returns the figure of a plot with a caption.
 std::string figure(const Plot& plot, const std::string& caption, bool broad = false);
 
-/// Round numbers in an interval, about so many.
+/// Returns about so many round numbers in an interval.
 std::vector<double> ticks(double low, double high, int about);
 
 }  // namespace sublimit::page

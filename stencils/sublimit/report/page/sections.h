@@ -8,33 +8,33 @@
 
 namespace sublimit::page {
 
-/// The summary table as textbooks have it.
+/// Returns the summary as a table in the form of textbooks.
 std::string summary_section(const Json& report);
 
-/// A scheme: what it is, what it claims, its regular part, its neighbourhoods.
+/// Returns the section of a scheme: properties, claims, regular part, neighbourhoods.
 std::string scheme_section(const Json& scheme, const std::string& id, bool many_schemes);
 
-/// The scheme on regular meshes: mask, support, basis function, norms, exponent.
+/// Returns the part on regular meshes: mask, support, basis function, norms, exponent.
 std::string regular_part(const Json& regular, const std::string& scheme);
 
-/// Spectra, ratios and verdicts over the valence of a kind ("vertex" or "face"), as plots and a table.
+/// Returns spectra, ratios and verdicts over the valence for a kind ("vertex" or "face"), as plots and a table.
 std::string over_valences(const Json& neighborhoods, const std::string& kind, const std::string& scheme,
                           const std::string& id);
 
-/// Level of detail of a neighbourhood: tables; with map and masks; with small or large surfaces.
+/// Level of detail of a neighbourhood: tables only; also map and masks; also small or large surfaces.
 enum class Detail { numbers, diagrams, small_pictures, pictures };
 
-/// One neighbourhood, folded.
+/// Returns a neighbourhood as a closed section.
 std::string neighborhood_details(const Json& neighborhood, const std::string& scheme, const std::string& id,
                                  Detail detail, bool open);
 
-/// Borders, creases, corners and darts: a table with their verdicts, and each folded.
+/// Returns borders, creases, corners and darts: a table of their verdicts, and a closed section for each.
 std::string edge_neighborhoods(const Json& neighborhoods, const std::string& scheme, const std::string& id,
                                Detail detail);
 
 /// Returns the section of warnings, for meshes and free-form shapes.
 std::string warnings_section(const Json& list);
-/// A point of the report: "(1, 0, 2.5)".
+/// Returns a point of the report as text: "(1, 0, 2.5)".
 std::string place(const Json& at);
 
 std::string free_form_section(const Json& free_form);

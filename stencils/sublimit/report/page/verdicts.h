@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Verdicts as readers check them: the word, the reason, the theorem, and what each hypothesis rests on.
+// Verdicts with everything that readers need to check them: the word, the reason, the theorem, and the basis of
+// each hypothesis.
 #include <string>
 
 #include "sublimit/report/page/json.h"

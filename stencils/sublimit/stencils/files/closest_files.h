@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Points whose nearest points on a surface are asked for, and what was found:
+// Files with query points, and with the points of a surface that are nearest to them:
 //
 //   in    .csv, with the header x,y,z or none; .npy, n x 3; the vertices of an .obj, .ply or .off
 //   out   [point,]face,u,v,x,y,z,nx,ny,nz,distance,lower,status
@@ -15,9 +15,9 @@ namespace sublimit {
 /// @throws InvalidMesh  numbers that are not finite
 Points read_query_points(const std::filesystem::path& path);
 
-/// A row for each point found, in order; the file appears whole or not at all. `lower` is a distance that the surface
-/// is not nearer than. What does not exist is an empty field.
-/// @param with_query  a first column that numbers the points asked for
+/// Writes a row for each point found, in order. The file appears whole or not at all. `lower` is a lower bound
+/// of the distance to the surface. Fields of values that do not exist are empty.
+/// @param with_query  true: the first column has the number of the query point
 void write_closest_points(const std::filesystem::path& path, const ClosestPoints& found, bool with_query);
 
 }  // namespace sublimit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Fields that files of samples, nearest points and hits share. What does not exist is an empty field.
+// Fields that files of samples, nearest points and hits share. Fields of values that do not exist are empty.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,11 +10,12 @@
 
 namespace sublimit {
 
-/// `face,u,v`.
+/// Appends `face,u,v`.
 void append_place(std::string& out, const Place& place);
-/// A comma before each number; those that are not finite are empty, or all of them where there are none.
+/// Appends numbers, each after a comma. Fields of numbers that are not finite are empty; all are if `exist` is
+/// false.
 void append_fields(std::string& out, const double* numbers, int count, bool exist = true);
-/// The coordinates of a row, each behind a comma.
+/// Appends the coordinates of a row, each after a comma.
 void append_point(std::string& out, const Points& points, Eigen::Index row);
 /// Appends the fields of a normal; empty ones if it is zero, which means undefined.
 void append_normal(std::string& out, const Points& normals, Eigen::Index row);

@@ -54,7 +54,7 @@ class CsvRows {
   std::vector<std::string_view> fields_;
   int file_ = -1;
   std::vector<char> block_;
-  size_t begin_ = 0, end_ = 0;  // of what is read and not yet taken
+  size_t begin_ = 0, end_ = 0;  // text that was read and not yet returned
   std::int64_t line_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Tables in the files of others.
+// Export of tables to file formats of other programs.
 #include <filesystem>
 
 #include "sublimit/eval/table_file.h"

@@ -5,8 +5,8 @@
 //   in    x,y,z
 //   out   x,y,z,value,gx,gy,gz,hxx,hxy,hxz,hyy,hyz,hzz,nx,ny,nz,gauss,mean
 //
-// What does not exist is an empty field: derivatives where two arguments of a minimum tie, normals where the gradient
-// is zero. The mean curvature of a sphere with outward normals is -1/r.
+// Fields of values that do not exist are empty: derivatives where two arguments of a minimum tie, normals where
+// the gradient is zero. The mean curvature of a sphere with outward normals is -1/r.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -15,8 +15,11 @@
 
 namespace sublimit {
 
-/// @return  rows that were written
-/// @throws FormatError  rows that are no places, with file:line; a place where the field is not finite;  IoError
+/// Evaluates a field at the places of a file, and writes the results.
+/// @return  number of rows written
+/// @throws FormatError  a row that is not a place, a place where the field is not finite; the message has file
+///                      and line
+/// @throws IoError      missing, unreadable, unwritable
 std::int64_t write_field_samples(const std::filesystem::path& in, const std::filesystem::path& out, const Field& field,
                                  const std::function<void(std::int64_t)>& progress = {});
 

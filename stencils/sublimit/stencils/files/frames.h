@@ -44,8 +44,8 @@ class FrameReader {
   bool has_frames_ = false;
   std::vector<std::string> columns_;
   std::optional<Mesh> mesh_;
-  Points points_;        // of files that are read at once
-  std::ifstream array_;  // of an .npy, behind its header
+  Points points_;        // points of files that are read at once
+  std::ifstream array_;  // an .npy, positioned after its header
   bool is_float_ = false;
   std::vector<float> floats_;
 };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Triangles as binary glTF 2.0 (`.glb`): one node with one mesh, POSITION, NORMAL and TEXCOORD_0 in float, indices of
-// 32 bits. Axes are as given: glTF's own up is y. Of a mesh far from the origin coordinates are relative to its middle,
-// which is the node's translation. Its texture coordinates begin at the upper edge: t is 1 - t here.
+// 32 bits. Axes are not changed; glTF expects y up. Coordinates of a mesh far from the origin are relative to
+// its middle, which becomes the node's translation. Texture coordinates of glTF start at the upper edge: t
+// becomes 1 - t.
 //
-// The JSON is nlohmann-json's, which the program has, and numbers stream to the file: tinygltf, the reader in our
-// tests, holds a file three times in memory while it writes, and renames nothing. Source: The Khronos Group, glTF 2.0
-// specification, 3.6 and 4.
+// tinygltf is not used for writing: it needs three times the memory of the file, and does not rename a
+// temporary file at the end. Source: The Khronos Group, glTF 2.0 specification, 3.6 and 4.
 #include <filesystem>
 #include <functional>
 
@@ -14,10 +14,12 @@
 
 namespace sublimit {
 
-/// @param mesh  triangles; normals, all of unit length, and `texture` per vertex, or none. Tags are left out
+/// Writes a mesh of triangles.
+/// @param mesh  may have unit normals and `texture`, both per vertex. Tags are left out
 /// @throws InvalidParameter  other faces, values per corner
-/// @throws InvalidMesh       coordinates that are not finite, as floats
-/// @throws ResourceError     4 GB or more, the most that the format has, or a full disk;  IoError
+/// @throws InvalidMesh       coordinates that are not finite as floats
+/// @throws ResourceError     4 GB or more, the limit of the format; a full disk
+/// @throws IoError           unwritable
 void write_glb(const std::filesystem::path& path, const Mesh& mesh,
                const std::function<void(std::int64_t)>& progress = {});
 

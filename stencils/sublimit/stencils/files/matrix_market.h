@@ -8,7 +8,7 @@
 
 namespace sublimit {
 
-/// Numbers are the shortest that read back to the same bits, of floats as floats.
+/// Writes a matrix. Numbers have the shortest form that reads back to the same bits; floats that of a float.
 /// @throws IoError  unwritable;  ResourceError  a full disk
 void write_matrix_market(const std::filesystem::path& path, const SparseMatrix& matrix);
 template <class Real>

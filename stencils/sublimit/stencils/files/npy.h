@@ -26,7 +26,7 @@ class NpyArray {
   /// Reads an array from the bytes of a file, which must outlive this.
   NpyArray(std::span<const std::byte> bytes, const std::string& name);
   NpyArray(const std::vector<std::byte>&& bytes, const std::string& name) = delete;
-  NpyArray(const NpyArray&) = default;  // which share the bytes; moved from are copied from
+  NpyArray(const NpyArray&) = default;  // copies share the bytes; there is no move, so that none is left empty
   NpyArray& operator=(const NpyArray&) = default;
 
   DType dtype() const { return dtype_; }  ///< F32 or F64
@@ -39,7 +39,7 @@ class NpyArray {
  private:
   void parse(const std::string& name);
   std::shared_ptr<const void> owner_;
-  std::span<const std::byte> bytes_;  // of the file, then of the data
+  std::span<const std::byte> bytes_;  // bytes of the file, then of its data
   DType dtype_ = DType::F32;
   std::vector<std::int64_t> shape_;
   std::int64_t size_ = 0;

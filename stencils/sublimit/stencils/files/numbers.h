@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Numbers in report.json. What is drawn is rounded; what is stated is not.
+// Numbers in report.json. Numbers for drawings are rounded, results are not.
 #include <nlohmann/json.hpp>
 
 #include "sublimit/neighborhood/sector_labels.h"

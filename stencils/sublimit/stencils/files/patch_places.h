@@ -2,12 +2,12 @@
 #pragma once
 // Places on patches and curves by their own parameters, from a CSV:
 //
-//   patch,u,v          at a knot the piece on its right, at the end of the domain the one on its left
-//   patch,u,v,side     side: two characters, of u and v, `+` right, `-` left; or empty
-//   curve,t            the same of curves
-//   curve,t,side       one character
+//   patch,u,v          a place at a knot is on the piece to its right; at the end of the domain to its left
+//   patch,u,v,side     side: two characters for u and v, `+` right, `-` left; or empty
+//   curve,t            places on curves
+//   curve,t,side       side: one character
 //
-// What is found there is written with these columns in front, derivatives per unit of the parameters.
+// Results are written after these columns, with derivatives per unit of these parameters.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +19,7 @@
 
 namespace sublimit {
 
-/// Places of a batch as they were asked for.
+/// Places of a batch in their own parameters, as the file has them.
 struct OwnPlaces {
   bool has_sides = false;
   std::vector<Index> patches;
@@ -45,8 +45,8 @@ class OwnPlaceReader {
   CsvRows rows_;
 };
 
-/// A place by its own parameters as one on a face of the set.
-/// @param where  "FILE:LINE: "
+/// Returns the place on a face of the set for a place by the parameters of a patch.
+/// @param where  start of messages: "FILE:LINE: "
 /// @throws FormatError  a patch that does not exist, parameters outside its domain
 Place own_place(const PatchSet& patches, std::int64_t patch, const Patch::Parameters& at, const std::string& where);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Places on a surface: as a CSV that `bake --at` and `sample --at` read, or with the triangles between them in a .ply
-// that `bake --tessellation` reads, as the properties place_face, place_u and place_v of its vertices.
+// Files of places on a surface: a CSV for `bake --at` and `sample --at`, or a .ply for `bake --tessellation`,
+// which also has the triangles between places. Its vertices have the properties place_face, place_u and
+// place_v.
 #include <filesystem>
 #include <span>
 #include <string>
@@ -24,10 +25,12 @@ struct PlacedFaces {
   std::vector<Place> places;
   std::vector<Index> face_sizes, face_vertices;
 };
+/// Reads places and the faces between them from a .ply.
 /// @throws InvalidOption  another extension than .ply
 /// @throws FormatError    vertices without places, a face that is not a whole number; and as `read_ply`
 PlacedFaces read_placed_faces(const std::filesystem::path& path);
-/// @throws FormatError  a place that is not on these faces, with file and vertex
+/// Checks that places are on the faces of a surface.
+/// @throws FormatError  a place that is not; the message has file and vertex
 void check_places(const PlacedFaces& read, FaceCount faces, const std::string& name);
 
 }  // namespace sublimit

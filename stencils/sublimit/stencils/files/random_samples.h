@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Random places on a limit surface, the same ones on every platform for a seed.
+// Random places on a limit surface. A seed gives the same places on every platform.
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace sublimit {
 
-/// Samples uniform over addresses and over the parameters of each. The standard fixes what std::mt19937_64 gives, but
-/// not what its distributions make of it, so numbers are mapped here.
+/// Samples that are uniform over addresses and over the parameters of each address. The standard fixes the
+/// numbers of std::mt19937_64, but not those of its distributions, so that this class maps numbers itself.
 class RandomSamples {
  public:
-  /// @param count  of samples in all
+  /// @param count  number of all samples
   RandomSamples(FaceCount faces, std::int64_t count, std::uint64_t seed)
       : faces_(faces), left_(faces.size > 0 ? count : 0), numbers_(seed) {}
 
-  /// The next samples: `batch` becomes at most `most` long, shorter only at the end. Their order does not depend on how
-  /// they are asked for.
+  /// Sets `batch` to the next samples, `most` of them, or fewer at the end. The sequence does not depend on the
+  /// sizes of batches.
   void read(std::vector<Place>& batch, size_t most);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Rates of edges, from a CSV with the header `v0,v1,rate`: the edge's vertices, from 0 and in either order, and into
-// how many segments a tessellation cuts it. Edges that have no row have one segment.
+// Rates of edges for tessellations, from a CSV with the header `v0,v1,rate`: the vertices of an edge, counted
+// from 0 and in either order, and the number of its segments. Edges without a row have one segment.
 #include <filesystem>
 #include <vector>
 
@@ -9,8 +9,11 @@
 
 namespace sublimit {
 
-/// @return  a rate for each edge
-/// @throws IoError;  FormatError  with file:line: no edge of the mesh, a rate that is not 1 to 4194304, an edge twice
+/// Reads the rates of all edges of a mesh.
+/// @return  rate of each edge
+/// @throws IoError      missing, unreadable
+/// @throws FormatError  not an edge of the mesh, a rate outside 1 to 4194304, an edge twice; the message has
+///                      file and line
 std::vector<Index> read_edge_rates(const std::filesystem::path& path, const Topology& topology);
 
 }  // namespace sublimit

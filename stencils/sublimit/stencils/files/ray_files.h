@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Rays, and where they hit a surface:
+// Files with rays, and with their hits on a surface:
 //
 //   in    ox,oy,oz,dx,dy,dz[,tmin,tmax]
 //   out   ray,t,face,u,v,x,y,z,nx,ny,nz,status
@@ -17,8 +17,8 @@ namespace sublimit {
 /// @throws IoError      missing, unreadable
 std::vector<Ray> read_rays(const std::filesystem::path& path);
 
-/// A row for each hit, by ray and by rising t, with its word as status (`RayHits::word`); the file appears whole or not
-/// at all. What does not exist is an empty field.
+/// Writes a row for each hit, ordered by ray and t, with its word (`RayHits::word`) as status. The file appears
+/// whole or not at all. Fields of values that do not exist are empty.
 void write_ray_hits(const std::filesystem::path& path, const RayHits& hits);
 
 }  // namespace sublimit

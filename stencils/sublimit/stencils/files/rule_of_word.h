@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Rules by the words that options and tables have for them.
+// Conversion between rules and their words in options and tables.
 #include <optional>
 #include <string>
 
@@ -8,16 +8,16 @@
 
 namespace sublimit {
 
-/// none, edge-only, edge-and-corner
+/// Returns the word of a rule: none, edge-only, edge-and-corner.
 const char* word(Boundary rule);
-/// uniform, chaikin
+/// Returns the word of a rule: uniform, chaikin.
 const char* word(Creasing rule);
-/// none, corners-only, corners-plus1, corners-plus2, boundaries, all
+/// Returns the word of a rule: none, corners-only, corners-plus1, corners-plus2, boundaries, all.
 const char* word(FaceVaryingInterpolation rule);
-/// catmark, smooth
+/// Returns the word of a rule: catmark, smooth.
 const char* word(Triangles rule);
 
-/// The rule of a word, if there is one: `rule_of<Boundary>("edge-only")`.
+/// Returns the rule of a word, `rule_of<Boundary>("edge-only")`; absent for other words.
 template <class Rule>
 std::optional<Rule> rule_of(const std::string& word);
 

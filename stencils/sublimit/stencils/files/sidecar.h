@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// MESH.json next to MESH.obj: subdivision tags in the names of USD, for meshes from formats that have no tags, or to
-// override those of the file.
+// MESH.json next to MESH.obj: subdivision tags with the names of USD, for formats that have no tags, or to
+// override the tags of the file.
 //
 // clang-format off
 //     {"creaseIndices": [0, 1, 2, 4, 5],        chains of vertices, one after the other
@@ -15,7 +15,7 @@
 //      "faceVaryingLinearInterpolation": "none" | "cornersOnly" | "cornersPlus1" | "cornersPlus2" | "boundaries" | "all"}
 // clang-format on
 //
-// Every key may be left out; one that is there replaces all tags of its kind.
+// Every key may be left out. A key that is present replaces all tags of its kind.
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -24,8 +24,8 @@
 
 namespace sublimit {
 
-/// The sidecar of a mesh file, if there is one: the same path with the extension .json, unless that is a report of this
-/// program (`"format": "sublimit-..."` comes first).
+/// Returns the sidecar of a mesh file: the same path with the extension .json, unless that is a report of this
+/// program (its first entry is `"format": "sublimit-..."`). Absent if there is none.
 std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& mesh);
 
 /// Replaces tags of `mesh` by those in a file. Unknown keys become warnings of the mesh.
@@ -34,7 +34,7 @@ std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& m
 /// @throws IoError      missing, unreadable
 void apply_sidecar(Mesh& mesh, const std::filesystem::path& path);
 
-/// Numbers of elements of a mesh that is not at hand.
+/// Numbers of elements of a mesh that is stored elsewhere.
 struct MeshCounts {
   Index vertices = 0, faces = 0;
 };

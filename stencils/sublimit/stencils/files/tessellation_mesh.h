@@ -13,8 +13,8 @@ namespace sublimit {
 /// Returns the mesh of points and triangles; vertex i is place i. `face_ids` are faces of the control mesh.
 Mesh tessellation_mesh(const Tessellation& made, const LimitMap& surface, bool face_ids);
 
-/// Adds limit normals at the corners of faces, of the face's side of sharp edges.
-/// @param complete  give corners without a normal that of their triangle
+/// Adds limit normals at the corners of faces; at sharp edges they belong to the side of the face.
+/// @param complete  true: corners where the limit has no normal get that of their triangle
 void add_normals(Mesh& out, const Tessellation& made, const LimitMap& surface, const Points& control, bool complete);
 
 /// Returns the places of the vertices of a split mesh: those of the tessellation, but on creases the place of each side

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Bezier cells as an unstructured grid of VTK (`.vtu`), which ParaView draws curved: VTK_BEZIER_QUADRILATERAL (77) and
-// VTK_BEZIER_TRIANGLE (76). Data of cells:
+// Bezier cells as an unstructured grid of VTK (`.vtu`), which ParaView draws as curved:
+// VTK_BEZIER_QUADRILATERAL (77) and VTK_BEZIER_TRIANGLE (76). Data of cells:
 //
 //   HigherOrderDegrees  of u, v and nothing; of triangles the total degree
 //   face                square or triangle of the surface, as `sublimit sample` numbers them
@@ -18,12 +18,13 @@
 
 namespace sublimit {
 
-/// Control points in VTK's order: corners, sides counter-clockwise, then the inside; rows of a net that goes by i, then
-/// j. Sides of squares go along u and v, those of triangles from corner to corner; the inside of a triangle is a
-/// triangle again.
+/// Returns the control points of a net in VTK's order, as rows of the net, in which j runs fastest: corners,
+/// sides counter-clockwise, then the inside. Sides of squares run along u and v, those of triangles from corner
+/// to corner; the inside of a triangle is ordered as a triangle again.
 std::vector<Eigen::Index> vtk_order(int degree, bool triangle);
 
-/// @throws InvalidMesh  a coordinate that is not finite;  IoError;  ResourceError  a full disk
+/// Writes cells.
+/// @throws InvalidMesh  a coordinate that is not finite;  IoError  unwritable;  ResourceError  a full disk
 void write_vtu(const std::filesystem::path& path, const BezierCells& cells, const Addresses& addresses,
                const std::function<void(std::int64_t)>& progress = {});
 

@@ -12,7 +12,7 @@
 namespace sublimit {
 
 struct FitSettings {
-  std::string refine = "auto";  ///< or the number of refinements
+  std::string refine = "auto";  ///< "auto", or a number of refinements before the fit
   Fairness fairness = {};
   FitMethod method = FitMethod::automatic;
   bool best_effort = false;  ///< return the nearest result if targets cannot be met
@@ -27,9 +27,9 @@ struct FitSettings {
 };
 
 struct ReportedFit {
-  Level level;  ///< whose limit it is; of torus pieces absent
+  Level level;  ///< level of the fitted mesh; empty for torus pieces
   Points points;
-  FitReport report;  ///< without names of files
+  FitReport report;  ///< report without names of files
 };
 
 /// Returns a report with the entries that are known before the fit: counts, targets, bounding box.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Targets of fits from a CSV. Its first line says what a row is:
+// Targets of fits from a CSV. Its header says what a row is:
 //
 //   vertex,x,y,z[,nx,ny,nz[,k1,k2,d1x,d1y,d1z]]    the limit of a control vertex, counted from 0; fields of a normal,
 //   or
@@ -22,32 +22,35 @@ namespace sublimit {
 
 struct FitTargets {
   std::filesystem::path file;
-  bool by_place = false;               ///< places, not vertices
-  bool by_patch = false;               ///< places whose face is the number of a patch, u and v its own parameters
+  bool by_place = false;               ///< targets are at places, not at vertices
+  bool by_patch = false;               ///< `face` of places is a patch, u and v are its own parameters
   std::vector<VertexTarget> vertices;  ///< in the order of the rows; normals and directions of length 1
   PlaceTargets places;
   std::vector<std::int64_t> lines;  ///< line of the file for each target
   Index num_normals = 0, num_curvatures = 0;
 
   size_t size() const { return lines.size(); }
-  /// "NAME:LINE: " of a target.
+  /// Returns "NAME:LINE: " of a target.
   std::string where(size_t target) const;
-  Points positions() const;  ///< a target each
+  Points positions() const;  ///< positions of the targets, one in each row
 };
 
-/// Everything that can be checked without the mesh.
+/// Reads targets, and checks everything that can be checked without the mesh.
 /// @throws FormatError  another header, no rows; a field that is no number or not finite; two targets on one vertex; a
 ///                      normal of zero length; curvatures without normal or direction; a direction of zero length or
 ///                      not in the tangent plane; a negative weight
 /// @throws IoError      unreadable
 FitTargets read_fit_targets(const std::filesystem::path& path);
 
-/// @throws FormatError  a target on a vertex that does not exist, is in no face or in holes alone
+/// Checks targets at vertices.
+/// @throws FormatError  a target on a vertex that does not exist, is in no face or only in holes
 void check_vertices(const FitTargets& targets, const Topology& topology, const std::vector<bool>& holes);
-/// @throws FormatError  a target on a face that does not exist or is a hole, or outside its face; patches
+/// Checks targets at places.
+/// @throws FormatError  a target on a face that does not exist or is a hole, or outside its face; targets on
+///                      patches
 void check_places(const FitTargets& targets, const Addresses& addresses, const std::vector<bool>& holes);
-/// The targets at places on faces of patches.
-/// @throws FormatError  targets at vertices; on a face or patch that does not exist, or outside of it
+/// Returns the targets as targets at places on the faces of patches.
+/// @throws FormatError  targets at vertices; a face or patch that does not exist, a place outside of it
 FitTargets targets_on(const PatchSet& patches, const FitTargets& targets);
 
 }  // namespace sublimit

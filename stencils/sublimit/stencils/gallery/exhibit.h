@@ -10,21 +10,21 @@
 
 namespace sublimit::gallery {
 
-/// Lengths are divided by the cage's diameter.
+/// Measures of a limit. Lengths are relative to the cage's diameter.
 struct Measured {
   std::string scheme, cage;
-  int level = 0;                               ///< whose vertices, moved to the limit, are measured
+  int level = 0;                               ///< level whose vertices, moved to the limit, are measured
   Index faces = 0;                             ///< faces of that level
-  double volume = 0;                           ///< over the cage's
+  double volume = 0;                           ///< volume, relative to the cage's
   double mean_distance = 0, max_distance = 0;  ///< distances of the limit from the control mesh
-  double symmetry_defect = 0;                  ///< under all symmetries of the cage's points
-  double roundness = 0;                        ///< least over largest distance to the centre: 1 for a sphere
+  double symmetry_defect = 0;                  ///< largest over all symmetries of the cage's points
+  double roundness = 0;                        ///< least distance to the centre over the largest: 1 for a sphere
   struct Bending {
     int level = 0;
     Index faces = 0;
     double energy = 0;
   };
-  /// Bending energy over a sphere's, on levels of about a sixteenth, a fourth and all of the faces.
+  /// Bending energy relative to a sphere's, on levels of about a sixteenth, a fourth and all of the faces.
   std::vector<Bending> bending = {};
 };
 
@@ -35,11 +35,12 @@ struct Exhibit {
 };
 
 struct ExhibitOptions {
-  int levels = 3;      ///< drawn
-  Index faces = 3000;  ///< at least, of the level that is measured and drawn as the limit
+  int levels = 3;      ///< number of levels drawn
+  Index faces = 3000;  ///< least number of faces of the level that is measured and drawn as the limit
 };
 
-/// @throws AnalysisError  no limit
+/// Refines a cage, draws and measures it.
+/// @throws AnalysisError  the scheme has no limit
 Exhibit exhibit(const Cage& cage, LimitCache& cache, const ExhibitOptions& options);
 
 }  // namespace sublimit::gallery

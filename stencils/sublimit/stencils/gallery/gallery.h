@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The gallery: every scheme on the same cages, level by level and in the limit, measured; classical surfaces with their
-// nets.
+// The gallery: pictures and measures of every scheme on the same cages, level by level and in the limit, and of
+// classical surfaces with their nets.
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,9 +11,9 @@
 namespace sublimit {
 
 struct GalleryOptions {
-  int levels = 3;      ///< drawn, 0 to 5, and the limit of surfaces after them
-  Index faces = 3000;  ///< at least, of the surfaces that are measured and drawn as limits; 200 to 200 000
-  /// Makes the page of a report on a mesh under a scheme; none: the gallery has no such page.
+  int levels = 3;      ///< levels drawn, 0 to 5; the limit of surfaces follows
+  Index faces = 3000;  ///< least faces of surfaces measured and drawn as limits; 200 to 200 000
+  /// Makes the page of a report on a mesh under a scheme. If not given, the gallery has no such page.
   std::function<std::string(const Mesh&, const std::string&)> report = {};
 };
 
@@ -21,15 +21,15 @@ struct GalleryFile {
   std::string name, text;
 };
 
-/// Draws and measures; writes nothing.
-/// @return  "index.html" (the last one) with its pictures, "measures.json", and the recipes "patches.json"
-/// @param progress  called with what is done and what there is to do, by one thread at a time, if given
+/// Makes the files of the gallery, without writing them.
+/// @return  pictures, "measures.json", the recipes "patches.json", and last "index.html"
+/// @param progress  if given, called by one thread at a time with the amounts of work done and in all
 /// @throws InvalidParameter  an option outside its range
 /// @note  Deterministic: same build, same bytes, for any number of threads.
 std::vector<GalleryFile> make_gallery(const GalleryOptions& options = {},
                                       const std::function<void(int, int)>& progress = {});
 
-/// Writes all files or none.
+/// Writes all files, or none.
 /// @param directory  must exist
 /// @throws IoError  unwritable;  ResourceError  a full disk
 void write_gallery(const std::string& directory, const std::vector<GalleryFile>& files);

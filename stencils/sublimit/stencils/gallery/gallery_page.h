@@ -8,22 +8,22 @@
 
 namespace sublimit::gallery {
 
-/// A line of pictures and what was measured on it.
+/// A row of pictures, with the measured numbers.
 struct PageRow {
   std::string name, source;
   std::vector<std::pair<std::string, std::string>> numbers;  ///< names and values
-  std::string picture;                                       ///< a file
+  std::string picture;                                       ///< file of the picture
 };
 struct PageTable {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 };
-/// Text, a picture of all that it has, a table and rows, as far as there are any.
+/// A section: text, a picture of everything in it, a table, rows; each may be absent.
 struct PageSection {
   std::string id, title;
   std::vector<PageRow> rows;
-  std::string text = {};                       ///< HTML as it is
-  std::string picture = {}, description = {};  ///< a file, and what it shows
+  std::string text = {};                       ///< text as HTML
+  std::string picture = {}, description = {};  ///< file of a picture, and its description
   PageTable table = {};
 };
 

@@ -9,13 +9,14 @@
 namespace sublimit::gallery {
 
 struct PatchData {
-  std::vector<Points> curves;  ///< each as points along it
-  Points points;               ///< through which the surface goes, #x3
-  Points normals;              ///< normals of these points; no rows: there are none
+  std::vector<Points> curves;  ///< points along each curve
+  Points points;               ///< points that the surface interpolates, #x3
+  Points normals;              ///< normals at these points; no rows if there are none
 };
 
-/// @param recipe  one of the gallery's (patch_recipes.h): profiles lie in the plane of x and z, paths end in their
-///                first and last control points, curves that are translated begin at the origin
+/// Returns the data of a recipe.
+/// @param recipe  a recipe of the gallery (patch_recipes.h): profiles are in the plane of x and z, paths end in
+///                their first and last control points, curves that are translated begin at the origin
 /// @throws FormatError  as the readers of recipes
 PatchData patch_data(const JsonValue& recipe);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The gallery's classical surfaces: each made from its recipe, as a picture with its net and its data, and what is said
-// of it, which is asked of the surface.
+// The classical surfaces of the gallery: each made from its recipe, as a picture with its net and data, and
+// with a description computed from the surface.
 #include <string>
 #include <vector>
 
@@ -11,22 +11,22 @@ namespace sublimit::gallery {
 
 /// Relation of a surface to its data.
 enum class PatchForm {
-  net,        ///< the exact net of a B-spline surface
-  rows,       ///< rows over points, but no such net
-  nonlinear,  ///< neither
+  net,        ///< has the exact net of a B-spline surface
+  rows,       ///< linear in its points, but without such a net
+  nonlinear,  ///< not linear in its data
 };
 
 struct PatchExhibit {
   std::string kind, name;
   PatchForm form = PatchForm::net;
-  std::string degree;   ///< in u and v, or of a triangle; empty where there is no polynomial
+  std::string degree;   ///< degrees in u and v, or total degree; empty if not polynomial
   std::string made_of;  ///< "net 4 x 3", "rows over 24 points"
-  std::string why;      ///< there is no net
+  std::string why;      ///< reason why there is no net
   Index faces = 0;
-  Panel panel;  ///< layers: the surface, the net if one is drawn, the data if there are any besides
+  Panel panel;  ///< layers: surface, net if there is one, data other than the net if any
 };
 
-/// One for each of the recipes (patch_recipes.h), in their order.
+/// Returns an exhibit for each of the recipes (patch_recipes.h), in their order.
 std::vector<PatchExhibit> patch_exhibits();
 
 /// Returns the view of all patch exhibits.

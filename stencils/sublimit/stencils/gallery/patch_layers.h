@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Layers of the gallery's panels of classical surfaces: the surface, its control net, its data.
+// Layers of the panels of classical surfaces: the surface, its control net, its data.
 #include <functional>
 #include <vector>
 
@@ -11,24 +11,25 @@
 
 namespace sublimit::gallery {
 
-/// A surface that can be sampled, whatever it is made of.
+/// A surface of any kind, for sampling.
 struct SampledSurface {
   FaceCount faces;
   /// Evaluates places, with normals.
   std::function<LimitSamples(const std::vector<Place>&)> at;
 };
 
-/// Grids of points on every face, some 800 squares in all; sides of faces as lines.
+/// Returns a surface as grids on its faces, about 800 squares in all, with the sides of faces as lines.
 PictureMesh surface_layer(const SampledSurface& surface);
 
 PictureMesh net_layer(const SplineNet& net);
-/// The lattice of a triangle's control points (triangle_patch.h).
+/// Returns the lattice of a triangle's control points (triangle_patch.h).
 PictureMesh triangle_net_layer(Index degree, const Points& columns, Coordinates coordinates);
 
-/// @param normal_length  of normals
+/// Returns the layer of a surface's data.
+/// @param normal_length  length of drawn normals
 PictureMesh data_layer(const PatchData& data, double normal_length);
 
-/// Moves and scales what a panel shows so that it fills the same window as all others do.
+/// Moves and scales the layers of a panel so that all panels fill the same window.
 void fit_window(std::vector<PictureMesh>& layers, const PictureOptions& view);
 
 }  // namespace sublimit::gallery

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The gallery's classical surfaces as a section of its page.
+// The classical surfaces as a section of the gallery's page.
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +11,7 @@ namespace sublimit::gallery {
 
 struct PatchPictures {
   PageSection section;
-  std::vector<std::pair<std::string, std::string>> files;  ///< "patches.svg", and "patches.json" that it is made from
+  std::vector<std::pair<std::string, std::string>> files;  ///< "patches.svg", and its recipes "patches.json"
 };
 
 PatchPictures patch_pictures();

@@ -11,17 +11,17 @@
 
 namespace sublimit::gallery {
 
-/// The scheme that the mesh is for.
+/// Name of the scheme of the mesh.
 inline constexpr const char* stitched_scheme = "catmull-clark-intervals";
 
-/// A lid, and a wall along two of its sides.
+/// Returns the mesh: a lid, and a wall along two of its sides.
 Mesh stitched_mesh();
 
 struct StitchedPictures {
   PageSection section;
   std::vector<std::pair<std::string, std::string>> files;  ///< "stitched.svg", "stitched.obj", "stitched.html"
 };
-/// @param report  makes the page of a mesh and a scheme's name; none: there is no page
+/// @param report  makes the page of a report on a mesh and a scheme's name. If not given, there is no page
 StitchedPictures stitched_pictures(const std::function<std::string(const Mesh&, const std::string&)>& report);
 
 }  // namespace sublimit::gallery

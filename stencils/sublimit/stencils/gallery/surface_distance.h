@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Distance from a point to a surface of triangles: a tree of boxes, visited from near to far.
+// Distance from a point to a surface of triangles, by a tree of boxes that is visited from near to far.
 #include <Eigen/Geometry>
 
 #include <array>
@@ -12,20 +12,20 @@ namespace sublimit::gallery {
 
 class SurfaceDistance {
  public:
-  /// Faces of more than three corners are cut from their first one.
+  /// Builds the tree. Faces of more than three corners are cut into a fan from their first corner.
   /// @param points  #V x 3; copied
   SurfaceDistance(const Topology& topology, const Points& points);
 
-  /// Distance of p to the nearest point of the surface. The search ends as soon as it is known to be `enough` or less;
-  /// what is returned then is some number up to that.
+  /// Returns the distance of p from the surface. If that is at most `enough`, the search ends early, and
+  /// returns any number up to `enough`.
   double operator()(const Eigen::Vector3d& p, double enough = 0) const;
 
  private:
   using Triangle = std::array<Eigen::Vector3d, 3>;
   struct Node {
     Eigen::AlignedBox3d box;
-    int first = 0, count = 0;  // triangles, of a leaf
-    int left = 0, right = 0;   // nodes, of the others
+    int first = 0, count = 0;  // triangles of a leaf
+    int left = 0, right = 0;   // children of an inner node
   };
   int build(int first, int count);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The patches of a table that is being made.
+// The groups of patches of a table that is being made.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace sublimit {
 
-/// Patches by block and share, those of a group in the order of their pieces.
+/// Patches grouped by block and share; those of a group are in the order of their pieces.
 class PatchGroups {
  public:
-  /// @param block  of a piece; -1: it makes no points
-  /// @param share  of a piece: what it has of its block's rows
+  /// @param block  block of each piece; -1: it makes no points
+  /// @param share  for each piece: which rows of its block it makes
   PatchGroups(const PieceMatches& pieces, std::span<const Index> block, std::span<const std::uint8_t> share);
 
   PatchGroups(const PatchGroups&) = delete;
@@ -31,8 +31,8 @@ class PatchGroups {
   std::vector<Index> pieces_;  // group by group
 };
 
-/// Control points of all patches, those of isolated points last.
-/// @param blocks  that are made
+/// Returns the control points of all patches; isolated points are last.
+/// @param blocks  filled blocks
 std::vector<std::int32_t> all_columns(const PieceMatches& pieces, const PatternBlocks& blocks,
                                       const PatchGroups& groups, std::span<const Index> alone);
 

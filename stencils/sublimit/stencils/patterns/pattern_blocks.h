@@ -20,7 +20,7 @@ class PatternBlocks {
   /// @param scheme  patterns of a scheme with wide masks have more points than they use; unused ones get no columns
   explicit PatternBlocks(const Scheme<double>& scheme) : drops_unused_(!scheme.has_one_ring_limits()) {}
 
-  /// Pattern of a block, and its place if that matters.
+  /// A block's pattern, and its place if the weights depend on it.
   struct Key {
     const Pattern* pattern = nullptr;
     LatticePlace place;  ///< only its turn and quarter are used

@@ -40,10 +40,11 @@ class Patterns {
   static Lattice lattice_of(const Scheme<double>& scheme, int levels);
   explicit Patterns(const Scheme<double>& scheme);
 
-  /// The type of a piece's neighbourhood. Rotations of a whole face have the same type.
+  /// The type of a piece's neighbourhood. Neighbourhoods that differ by a rotation of the face have the same
+  /// type.
   struct Match {
     const Pattern* pattern = nullptr;
-    int turn = 0;                 ///< the face's corner that is the pattern's first one
+    int turn = 0;                 ///< corner of the face where the pattern starts
     std::vector<Index> vertices;  ///< points that it depends on
     size_t size = 0;              ///< words of the piece's signature; set even if its type is not in the dictionary
   };
@@ -149,7 +150,8 @@ class Patterns {
   mutable std::shared_mutex mutex_;  // of the patterns and their signatures
   std::deque<Pattern> patterns_;
   std::unordered_map<std::vector<std::uint32_t>, Turned, SignatureHash> by_signature_;
-  /// Computing rows of many levels computes those of fewer levels.
+  /// Rows without their first column, which is 1 minus the sum of the others. Rows of many levels are computed
+  /// from those of fewer levels. Key: type, levels, ends.
   FoundByKey<std::tuple<const PieceType*, int, Ends>, RowMatrix> differences_;
   /// Key: number of the pattern, levels, ends.
   FoundByKey<std::tuple<size_t, int, Ends>, RowMatrix> rows_;

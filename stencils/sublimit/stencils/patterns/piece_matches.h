@@ -54,7 +54,7 @@ class PieceMatches {
   /// Type of regular faces, if their points can be found by walks in the order of `RegularFaces`.
   const Pattern* regular_ = nullptr;
   std::optional<RegularFaces> regular_faces_;
-  std::vector<std::int16_t> places_;  // of a piece: among the matches of its chunk, or a sign
+  std::vector<std::int16_t> places_;  // for each piece: index among the matches of its chunk, or a code
   std::vector<Chunk> chunks_;
 };
 

@@ -10,9 +10,9 @@
 
 namespace sublimit {
 
-/// 0 where all is regular, and every derivative asked for is there.
-/// @param order        derivatives that exist, 0 to 2
-/// @param derivatives  those that the table has
+/// Returns the status of a point as a byte; 0 if it is regular and all derivatives of the table exist.
+/// @param order        order of the derivatives that exist at the point, 0 to 2
+/// @param derivatives  order of the derivatives that the table has
 constexpr std::uint8_t point_status(LimitStatus status, int order, int derivatives) {
   return static_cast<std::uint8_t>(int(status) + num_limit_statuses * (derivatives - std::min(order, derivatives)));
 }

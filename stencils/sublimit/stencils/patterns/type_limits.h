@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Limits of a type, with all that a limit surface tells: the surface of the type's own points.
+// Limits of a type, with statuses and derivatives, evaluated on the limit surface of the type's own points.
 #include <memory>
 #include <optional>
 
@@ -8,7 +8,7 @@
 
 namespace sublimit {
 
-/// @return  nothing where limit masks reach beyond the points of the type
+/// Returns limits of points of a lattice; absent if limit masks reach beyond the points of the type.
 std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitCache>& types, const PieceType& type,
                                                    const Patterns::LimitRequest& request);
 /// Returns limits at any parameters (u, v) of an address.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Colours of pictures, and the ramp from shadow to light that goes through one.
+// Colours of pictures, and the ramp from shadow to light through a base colour.
 #include <array>
 #include <string>
 
@@ -9,7 +9,7 @@ namespace sublimit {
 /// Red, green, blue in 0..1 (sRGB).
 using Color = std::array<double, 3>;
 
-/// a at t = 0, b at t = 1.
+/// Returns the colour a at t = 0, b at t = 1, linear between them.
 Color mix(const Color& a, const Color& b, double t);
 
 /// Returns a colour of a smooth ramp from a cool shadow (t = 0) through the base colour to a warm white (t = 1).

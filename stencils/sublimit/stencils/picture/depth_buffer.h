@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A depth buffer: at every sample the nearest face.
+// A depth buffer, which has the nearest face at every sample.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -44,7 +44,7 @@ class DepthBuffer {
       }
     }
   }
-  /// Every sample the nearest of itself and its eight neighbours.
+  /// Returns for every sample the largest nearness of itself and its eight neighbours.
   std::vector<float> nearest_around() const {
     std::vector<float> rows = near_, result(near_.size());
     for (int y = 0; y < height_; ++y) {
@@ -64,7 +64,7 @@ class DepthBuffer {
   }
   float near(std::size_t pixel) const { return near_[pixel]; }
   int face(std::size_t pixel) const { return face_[pixel]; }
-  /// Share of the samples at (x, y) and beside it of which `open(face, nearness)` is true.
+  /// Returns the fraction of the samples at and around (x, y) for which `open(face, nearness)` is true.
   template <class Open>
   double share_around(double x, double y, Open open) const {
     const int cx = static_cast<int>(std::floor(x)), cy = static_cast<int>(std::floor(y));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Light: how much of the sky a face sees, and from it, a key light, a fill and a highlight the tone of every corner.
+// Light: the tone of every corner, from the part of the sky that its face sees, a key light, a fill light and a
+// highlight.
 #include "sublimit/stencils/picture/scene.h"
 
 namespace sublimit::picture {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Outlines: many polygons as one path.
+// Outlines: the union of many polygons as one path.
 #include <string>
 #include <vector>
 
@@ -10,8 +10,8 @@ namespace sublimit::picture {
 
 using svg::Spot;
 
-/// Outline of the union of polygons that do not overlap and all turn the same way: edges used in both directions
-/// cancel.
+/// Outline of the union of polygons that do not overlap and have the same orientation. Edges that are used in
+/// both directions cancel.
 class Outline {
  public:
   void add(const std::vector<Spot>& polygon) {
@@ -26,7 +26,7 @@ class Outline {
  private:
   struct Segment {
     Spot low, high;
-    int uses = 1;  // from low to high less from high to low
+    int uses = 1;  // number of uses from low to high, minus those from high to low
   };
   struct Step {
     Spot from, to;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A panel as the camera sees it: its scene, where the points are on the paper, and which face is in front where. Faces
-// are drawn first, then the lines and dots of every layer.
+// A panel as the camera sees it: its scene, the projected points, and the depth buffer. Faces are drawn first,
+// then the lines and dots of every layer.
 #include <string>
 #include <vector>
 
@@ -16,7 +16,7 @@ constexpr int supersampling = 5;  ///< depth samples per pixel and direction
 struct SeenPanel {
   SeenPanel(const Panel& panel, const Frame& frame, const Camera& camera, const PictureOptions& options);
 
-  /// Triangles of a face in samples of the depth buffer.
+  /// Calls `use` for the triangles of a face, in samples of the depth buffer.
   template <class Use>
   void triangles(const SceneFace& face, Use use) const {
     const auto fine = [](Projected p) { return Projected{p.x * supersampling, p.y * supersampling, p.near}; };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Pictures of meshes as SVG: panels in rows, one camera, soft shading, hidden faces and lines left out. Only what
-// a depth buffer has seen is written, faces of one tone are merged into one outline, and coordinates are tenths of a
-// pixel, so that a limit surface of 20 000 faces takes some 200 KB.
+// Pictures of meshes as SVG: panels in rows, one camera, soft shading, hidden faces and lines left out. Faces
+// that a depth buffer shows to be hidden are not written, faces of equal tone are merged into one outline, and
+// coordinates are tenths of a pixel, so that a limit surface of 20 000 faces takes about 200 KB.
 #include <Eigen/Core>
 
 #include <optional>
@@ -19,14 +19,15 @@ struct PictureMesh {
   std::vector<Index> face_sizes;     ///< corners of each face, >= 3
   std::vector<Index> face_vertices;  ///< vertices of all faces, one after the other, counter-clockwise
 
-  /// Either, both or none; without them (or where they are zero) a face is flat. Lengths do not matter. A normal that
-  /// is far from the one of its face belongs to the other side of a crease and is not used there.
+  /// Normals per vertex, per corner, both, or none. Faces without normals, or with zero ones, are flat. Lengths
+  /// do not matter. A normal far from that of its face belongs to the other side of a crease and is not used
+  /// for the face.
   Points vertex_normals;  ///< #V x 3
   Points corner_normals;  ///< one row per entry of face_vertices
 
   struct Line {
     Index tail = 0, head = 0;
-    double strength = 1;  ///< 0..1: from thin amber to strong red
+    double strength = 1;  ///< 0 to 1: from thin amber to strong red
   };
   std::vector<Line> creases;
   struct Ink {
@@ -54,18 +55,19 @@ struct PictureOptions {
   double azimuth = .6, elevation = .36;  ///< direction of the eye, radians; at azimuth 0, +x is to the right
   double distance = 5;                   ///< distance of the eye, in radii of the scene, > 1; 0: orthographic
   int sky_directions = 128;              ///< number of directions of light; more take time and reduce grain
-  int tone_step = 1;                     ///< smooth shading has every so manieth tone: small pictures need few
+  int tone_step = 1;                     ///< step between tones of smooth shading; larger for small pictures
   bool ground_shadow = true;
   bool plate = true;         ///< a light background
   double caption_size = 17;  ///< pixels; notes are smaller
   /// Alternative text. With a title the picture has the role of an image of that name, as inline pictures need.
   std::string title = {}, description = {};
   int columns = 0;  ///< panels in a row, 0: all
-  /// #x3, kept in view though nothing draws them: pictures of what lies within the same ones have the same camera.
+  /// Points #x3 that are kept in view but not drawn. Pictures whose contents are within the same points have
+  /// the same camera.
   Points in_view = {};
 };
 
-/// The picture as the text of an SVG file.
+/// Returns the text of an SVG file.
 ///
 /// Every panel shows the union of its layers; scale and camera are the same for all panels.
 /// @throws InvalidParameter  if a coordinate or normal is not finite, arrays do not fit together, an index is outside

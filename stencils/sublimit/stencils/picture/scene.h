@@ -9,17 +9,17 @@
 
 namespace sublimit::picture {
 
-/// Cosine of the angle from which a normal is not its face's but belongs to the other side of a crease.
+/// Cosine of the angle to the face's normal from which a normal belongs to the other side of a crease.
 inline const double crease_cosine = std::cos(35 * std::numbers::pi / 180);
 
 struct SceneFace {
   int begin = 0, end = 0;  // corners
   int layer = 0;
   Vector3d center = Vector3d::Zero();
-  Vector3d normal = Vector3d::Zero();  // of the side that is seen
-  bool back = false;                   // that side is the inside
+  Vector3d normal = Vector3d::Zero();  // normal of the side that is seen
+  bool back = false;                   // true if that side is the inside
   bool solid = true, flat = true;
-  double light = 1;  // how much of the sky it sees
+  double light = 1;  // fraction of the sky that it sees
   double tone = 0;   // at the centre, 0..tones - 1
 };
 
@@ -32,7 +32,7 @@ struct SceneCorner {
 
 struct Scene {
   std::vector<Vector3d> points;
-  std::vector<int> first_point;  // of each layer
+  std::vector<int> first_point;  // first point of each layer
   std::vector<SceneCorner> corners;
   std::vector<SceneFace> faces;
 
@@ -42,7 +42,7 @@ struct Scene {
 
 Scene scene_of(const Panel& panel, const Frame& frame, const Camera& camera);
 
-/// Triangles of a face: two for a quad, a fan around the centre for more corners.
+/// Calls `use` for the triangles of a face: two for a quad, a fan around the centre for more corners.
 template <class Use>
 void for_each_triangle(const Scene& scene, const SceneFace& face, const std::vector<Projected>& at,
                        const Projected& center, Use use) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The alphabet of our SVG files: text that is safe in XML, lengths in tenths of a pixel, paths of relative steps.
+// Parts of SVG files: text that is safe in XML, lengths in tenths of a pixel, paths of relative steps.
 #include <string>
 #include <string_view>
 
@@ -8,15 +8,15 @@ namespace sublimit::svg {
 
 constexpr int units = 10;  ///< path units per pixel: one decimal without a decimal point
 
-/// Text for XML; control characters become blanks.
+/// Returns text escaped for XML; control characters become blanks.
 std::string escaped(std::string_view text);
 
 constexpr int farthest = 100'000'000;  ///< path units from the origin: sums and differences of two are still an int
 
-/// The nearest whole number, of any value: not a number is 0, and what is farther than `farthest` is there.
+/// Returns the nearest whole number. NaN becomes 0, and values are clamped to +-`farthest`.
 int nearest(double value);
 
-/// Tenths of a pixel with at most one decimal; of any value, as `nearest`.
+/// Returns a length in pixels as text with at most one decimal, clamped as by `nearest`.
 std::string pixels(double value);
 
 /// A point in path units.
@@ -25,16 +25,16 @@ struct Spot {
   auto operator<=>(const Spot&) const = default;
 };
 
-/// The nearest spot to a point in pixels.
+/// Returns the nearest spot to a point in pixels.
 Spot spot(double x, double y);
 
-/// Path data of relative steps, the shortest form there is.
+/// Path data of relative steps, which is the shortest form.
 class Path {
  public:
   void move(Spot to) { step('m', to), start_ = to; }
   void line(Spot to) { step(0, to); }
   void close() { data_ += 'z', at_ = start_; }
-  /// A mark that a round line cap makes a disc.
+  /// Adds a segment of length zero, which a round line cap turns into a disc.
   void dot(Spot to) { move(to), data_ += "h0"; }
   const std::string& data() const { return data_; }
 

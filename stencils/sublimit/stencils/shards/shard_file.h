@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Shards as files: ordinary tables over the part's points, which `load_table` reads, with arrays more and a place in
-// the set:
+// Shards as files: tables over the part's control points, which `load_table` reads, with two further arrays and
+// the position in the set of shards:
 //
 //   shard.inputs   I64 #inputs       control points of the whole, ascending
-//   shard.runs     I64 #runs x 2     its points, run by run: the first one in the whole, how many
-//   metadata       shard.bake        a name for all that decides what is in the set, 16 hexadecimal digits
-//                  shard.number (from 0), shard.count, shard.points (of all), shard.control_points (of the whole)
+//   shard.runs     I64 #runs x 2     runs of its points: first number in the whole table, number of points
+//   metadata       shard.bake        hash of everything that determines the set, 16 hexadecimal digits
+//                  shard.number (from 0), shard.count, shard.points (of the whole table), shard.control_points
+//                  (of the whole mesh)
 //
-// A directory has "shard-0003-of-0008.safetensors", .. and, written when all are there, "shards.json".
+// A directory has "shard-0003-of-0008.safetensors", ..., and "shards.json", which is written after all shards.
 #include <filesystem>
 #include <string>
 
@@ -34,6 +35,7 @@ struct ShardManifest {
 inline constexpr const char* shard_manifest_name = "shards.json";
 std::string shard_name(int number, int count);
 
+/// Writes a shard.
 /// @throws IoError, ResourceError  as `save_table`
 void save_shard(const std::filesystem::path& path, const Shard& shard, const ShardPlace& place);
 void save_manifest(const std::filesystem::path& directory, const ShardManifest& manifest);
@@ -44,15 +46,20 @@ struct LoadedShard {
   std::vector<PointRun> runs;
   ShardPlace place;
 };
-/// @throws FormatError, IoError, ResourceError  as `load_table`; a table that is no shard, or whose arrays do not fit
+/// Loads a shard.
+/// @throws FormatError, IoError, ResourceError  as `load_table`; a table that is not a shard, or whose arrays
+///                                              do not fit
 LoadedShard load_shard(const std::filesystem::path& path);
 /// Loads a shard, and checks that it is the one of a manifest.
 /// @throws FormatError  a shard of another bake
 LoadedShard load_shard(const std::filesystem::path& directory, const ShardManifest& manifest, int number);
-/// The place alone, if there is a whole shard, of a shard's name; its data is not read.
+/// Returns the position of a shard in its set, without reading its data; absent if the file does not have the
+/// name of a shard, or is damaged.
 std::optional<ShardPlace> find_shard(const std::filesystem::path& path);
 
-/// @throws IoError  none there: a bake that is not done;  FormatError
+/// Loads the description of the shards of a directory.
+/// @throws IoError      there is none: the bake is not finished
+/// @throws FormatError  not a description of shards
 ShardManifest load_manifest(const std::filesystem::path& directory);
 
 }  // namespace sublimit

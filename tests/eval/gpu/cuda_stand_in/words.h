@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What clang has for CUDA and not for the host, and the few lines of kernels/cuda.inc that are instructions of a GPU.
+// Definitions that clang has for CUDA but not for the host, and replacements of the GPU instructions in
+// kernels/cuda.inc, to run kernels on the host.
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
-/// Where the lane that runs is. One workgroup runs at a time, its lanes in turns, from barrier to barrier.
+/// Position of the running lane. One workgroup runs at a time; its lanes run in turns, from barrier to barrier.
 struct StandInPlace {
   unsigned lane, workgroup[3], num_workgroups[3];
 };
@@ -20,7 +21,7 @@ inline unsigned __nvvm_read_ptx_sreg_nctaid_x() { return stand_in_place.num_work
 inline void __syncthreads() { stand_in_barrier(); }
 inline float __nvvm_rsqrt_approx_f(float x) { return 1 / std::sqrt(x); }
 
-/// Rounded to nearest, ties to even.
+/// Returns the bits of the nearest half float, ties to even.
 inline unsigned short HALF_OF(float x) {
   std::uint32_t bits;
   std::memcpy(&bits, &x, sizeof bits);

@@ -15,7 +15,7 @@ inline ExactAnalysis analyzed(const Scheme<Algebraic>& scheme, LocalType type, i
   return std::move(*analysis);
 }
 
-/// Around a vertex of valence n, or a face of n corners if the scheme is dual.
+/// Returns the exact analysis around a vertex of valence n, or a face of n corners if the scheme is dual.
 inline ExactAnalysis analyzed(const Scheme<Algebraic>& scheme, int n, int rings) {
   return analyzed(scheme, {.kind = scheme.is_dual() ? Centre::Kind::face : Centre::Kind::vertex, .faces = n}, rings);
 }

@@ -12,16 +12,17 @@ class AppliedPoints {
   template <class Real>
   explicit AppliedPoints(const BakedTable<Real>& table);
 
-  /// Points that do not exist, of a rational table: one for each, 1 at a pole.
+  /// Sets which points of a rational table do not exist: one entry for each point, 1 at a pole.
   void set_poles(std::vector<std::uint8_t> poles) { poles_ = std::move(poles); }
 
-  /// Unit normals from first derivatives, by the winding of faces; zero where there is no tangent plane, where these
-  /// derivatives are parallel within rounding, and everywhere if there are none.
+  /// Returns unit normals from first derivatives, oriented by the winding of faces. They are zero where there
+  /// is no tangent plane, where the derivatives are parallel within rounding, and everywhere if the table has
+  /// no derivatives.
   /// @param values  quantities x points x 3, as the table's `apply` gives them
   template <class Real>
   Points normals(std::span<const Real> values) const;
 
-  /// The faces between the points, with normals if there are derivatives.
+  /// Returns the mesh of points and faces, with normals if the table has derivatives.
   template <class Real>
   Mesh mesh(const FaceList& faces, std::span<const Real> values) const;
 
@@ -46,12 +47,12 @@ class AppliedPoints {
   std::int64_t num_points_ = 0;
   int quantities_ = 1;
   bool has_status_ = false;
-  std::function<SampleAddresses()> addresses_;  // a mesh needs none
+  std::function<SampleAddresses()> addresses_;  // only for a CSV
   std::vector<std::string> status_names_;
   std::vector<std::int8_t> orders_;   // by status
-  std::vector<std::uint8_t> status_;  // none: all are the first
+  std::vector<std::uint8_t> status_;  // status of each point; empty: all have the first one
   std::vector<bool> has_plane_;       // by status
-  std::vector<std::uint8_t> poles_;   // none: all points exist
+  std::vector<std::uint8_t> poles_;   // empty: all points exist
 };
 
 }  // namespace sublimit

@@ -39,7 +39,7 @@ struct BakeRequest {
   bool order = false;  ///< keep `BakedTable::refined_points`
 };
 
-/// Returns whether a request is for what only the refined mesh has.
+/// Returns true if a request is for data that only a refined mesh has: face-varying values, tags, its order.
 inline bool needs_refined_mesh(const BakeRequest& request) {
   return request.face_varying || request.tags || request.order;
 }

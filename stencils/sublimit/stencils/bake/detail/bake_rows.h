@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Tables by rows: any scheme, any request.
+// Tables by rows, which are possible for any scheme and request.
 #include "sublimit/source/linear_source.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 
 namespace sublimit {
 
-/// A table by rows, its `info` left empty.
+/// Bakes a table by rows, without `info`.
 Baked bake_by_rows(Patterns& patterns, const Level& control, const BakeRequest& request);
 
-/// Rows of places of any source, which become the table's `rest`, with their statuses; in parallel.
-/// @throws ResourceError  more than memory, predicted before it is taken
+/// Adds the rows of places of any source to a table, as its `rest`, with their statuses. Runs in parallel.
+/// @throws ResourceError  not enough memory, predicted before it is taken
 void add_places(const LinearSource& surface, std::span<const Place> samples, int derivatives, Baked& baked,
                 PatternTable<double>::Arrays& arrays);
 /// Stores the samples of a request as the places of a table's points, with the faces between them.
 void set_samples(const BakeRequest& request, Baked& baked);
 
-/// Points of grids that lie on several addresses, to and from in turn.
+/// Returns the points of grids that lie on several addresses, as pairs: the copy, then the point that it is
+/// copied from.
 std::vector<std::int32_t> grid_copies(const Topology& t, const Addresses& addresses, int N, bool dual);
 
-/// The faces of a level, those of holes left out.
+/// Returns the faces of a level without those of holes.
 FaceList face_list(const Level& level);
 
-/// Statistics of a table that is made.
+/// Sets the statistics that follow from a finished table: blocks, groups, points, weights, bytes.
 void count_table(Baked& baked);
 
-/// A matrix as rows of a table.
+/// Returns a matrix as rows of a table.
 StencilTable<double> as_table(const SparseMatrix& S);
 
 }  // namespace sublimit

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The owners of points on sides and at corners. Any of the faces there may be the owner; but kernels work in registers
-// of rows, so every quadrilateral should own two sides and a corner, and no face nearly all of them.
+// The owners of points on sides and at corners of faces. Any face with such a point may own it. Balanced owners
+// are faster: kernels work in registers of rows, so every quadrilateral should own about two sides and a
+// corner.
 #include "sublimit/eval/face_lattices.h"
 #include "sublimit/mesh/topology.h"
 
@@ -9,13 +10,13 @@ namespace sublimit {
 
 /// Rule for choosing owners.
 enum class OwnerRule {
-  balanced,  ///< every face as many points as the others, as far as that is possible
-  first,     ///< the face of the lowest number: known from a look at the place alone
+  balanced,  ///< faces own equally many points, as far as possible
+  first,     ///< the face of the lowest number, which depends on the faces at the point only
 };
 
-/// Owners of the points of a mesh's faces, all of which have as many sides as the lattice.
-/// @param turn  of each face: its corner that is the lattice's first one
-/// @return      without points and addresses
+/// Chooses the owners of the points of all faces, which must have as many sides as the lattice.
+/// @param turn  for each face: the corner where its lattice starts
+/// @return      lattices without points and addresses
 FaceLattices::Arrays face_owners(const Topology& topology, const Lattice& lattice, std::span<const std::int8_t> turn,
                                  OwnerRule rule = OwnerRule::balanced);
 

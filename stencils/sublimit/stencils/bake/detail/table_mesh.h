@@ -6,8 +6,8 @@
 
 namespace sublimit {
 
-/// Gives a mesh whose faces are `faces_of(table)` the table's first face-varying channel, if there is one (files have
-/// room for one), and the tags that are left, with the rules that they go with.
+/// Adds to a mesh whose faces are `faces_of(table)` the table's first face-varying channel (files hold only
+/// one), and its remaining tags with their rules, if it has any.
 template <class Real>
 void add_channels(Mesh& mesh, const BakedTable<Real>& table);
 

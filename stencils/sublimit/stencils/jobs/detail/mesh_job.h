@@ -13,7 +13,7 @@ namespace sublimit {
 
 /// A request. Rules are the words of stencils/files/rule_words.h; empty: the mesh's own.
 struct MeshRequest {
-  std::string scheme = {};     ///< empty: none is needed
+  std::string scheme = {};     ///< name of the scheme; empty: none is needed
   SchemeOptions options = {};  ///< options of the scheme
   std::string boundary = {}, creasing = {}, triangles = {}, face_varying = {};
   bool triangulate = false;                               ///< every face is cut into triangles first
@@ -29,25 +29,26 @@ struct MeshJob {
   SchemeOptions options;  ///< options of the scheme, with those that tags of the mesh select
   SubdivisionOptions rules;
   FaceVaryingInterpolation face_varying = FaceVaryingInterpolation::all;
-  bool face_varying_asked = false;  ///< not by the mesh's tag: it must be possible
+  bool face_varying_asked = false;  ///< true if the request asks for it, not a tag: it must be possible
 };
 
 /// Returns the scheme of a name.
-/// @throws InvalidOption  there is none, or it is one of curves or of points with more than positions; the message
-///                        offers the nearest ones
+/// @throws InvalidOption  no such scheme, or it is one for curves or for points with normals; the message has
+///                        the nearest names
 Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options = {});
 
-/// Returns scheme and rules of a request before a mesh is read, so that what is misspelt is reported at once.
-/// @throws InvalidOption  as `scheme_or_throw`; a rule by a word that there is not, an option that the own scheme lacks
+/// Returns scheme and rules of a request before a mesh is read, so that misspelt names are reported at once.
+/// @throws InvalidOption  as `scheme_or_throw`; an unknown word for a rule, an option that `own_scheme` does
+///                        not have
 MeshJob scheme_job(const MeshRequest& request);
 
 /// Returns scheme, rules and mesh of a request.
 /// @param name  of the mesh, in messages
 /// @throws InvalidMesh  connectivity that no scheme takes; with `strict`, every fault of it
-/// @note  What is accepted with a warning is added to the mesh's.
+/// @note  Warnings about accepted faults are added to those of the mesh.
 MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name);
 
-/// Returns what keeps a mesh from being a manifold, in words.
+/// Returns the reasons why a mesh is not a manifold, as words; empty if it is one.
 std::vector<std::string> faults(const Mesh& mesh);
 
 }  // namespace sublimit

@@ -17,10 +17,10 @@ struct ExactNumber {
 
 using ExactPoints = std::vector<std::vector<ExactNumber>>;
 
-/// "p/q" or "p", whole numbers of 64 bits, q > 0; nothing if the text is none.
+/// Reads "p/q" or "p", whole numbers of 64 bits, q > 0; absent for other texts.
 std::optional<ExactNumber> parse_fraction(std::string_view text);
 
-/// The double nearest to p/q, ties to even.
+/// Returns the double nearest to p/q, ties to even.
 double nearest_double(std::int64_t p, std::int64_t q);
 
 }  // namespace sublimit

@@ -19,12 +19,13 @@ struct JsonValue {
   const JsonValue* find(std::string_view key) const;
 };
 
-/// @param name  of the file, for messages
+/// Parses JSON.
+/// @param name  name of the file, for messages
 /// @throws FormatError  not JSON, with file:line; a key that comes twice in an object; more than 64 levels of nesting;
 ///                      numbers beyond the largest double
 JsonValue parse_json(std::string_view text, const std::string& name);
 
-/// A value as messages show it: "an array", "2.5", "\"smooth\"".
+/// Returns a value as text for messages: "an array", "2.5", "\"smooth\"".
 std::string show(const JsonValue& value);
 
 }  // namespace sublimit

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Recipes: classical curves and surfaces as data, a JSON object each with its `kind`, or {"recipes": [object, ..]} for
-// several. What is a curve or a surface comes as one, with its control points and its exact net if there is one; what
-// needs other mathematics comes as its data.
+// Recipes: classical curves and surfaces as JSON objects with a `kind`, or several in {"recipes": [object,
+// ..]}. Linear curves and surfaces are returned as such, with their control points and, if there is one, their
+// exact net; other kinds are returned as their data.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -23,7 +23,7 @@ struct RecipeSurface {
   Points columns;
   Coordinates coordinates = Coordinates::plain;
   std::optional<SplineNet> net;
-  std::string no_net;  ///< why there is none
+  std::string no_net;  ///< reason why there is none
 };
 
 struct RecipeCurve {
@@ -53,13 +53,13 @@ struct JoinRecipe {
   JoinSide left, right;
 };
 
-/// `implicit`: its fields as they are.
+/// `implicit`: only its JSON fields.
 struct FieldRecipe {
   JsonValue object;
 };
 
 struct Recipe {
-  std::size_t index = 0;  ///< in the file
+  std::size_t index = 0;  ///< number of the recipe in the file, from 0
   std::string kind, name, group;
   std::string place;  ///< "file.json: recipe 2 'wing' (ruled)", for messages
   std::variant<RecipeSurface, RecipeCurve, NormalTriangles, JoinRecipe, FieldRecipe> shape;
@@ -72,14 +72,14 @@ struct Recipe {
   const JoinRecipe* join() const { return std::get_if<JoinRecipe>(&shape); }
 };
 
-/// "recipe 2 'wing' (ruled)".
+/// Returns the words for a recipe: "recipe 2 'wing' (ruled)".
 std::string label(const Recipe& recipe);
 
 /// Returns all kinds of recipes, in the order of the manual.
 std::vector<std::string> recipe_kinds();
 
-/// The recipes of a file.
-/// @throws FormatError    what cannot be understood, naming file, recipe, field, and what would be right
+/// Reads the recipes of a file.
+/// @throws FormatError    invalid contents; the message has file, recipe, field, and what would be right
 /// @throws InvalidMesh    curves that do not meet where they must, with the gap
 /// @throws IoError        missing, unreadable;  ResourceError  more than memory or 32-bit indices hold
 std::vector<Recipe> read_recipes(const std::filesystem::path& path);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// The fields of an object in a recipe, read by name: what is missing, unknown or of another kind is an error that names
-// the file, the object, the field, and what would be right.
+// The fields of an object in a recipe, read by name. Fields that are missing, unknown or of another kind are
+// errors that name the file, the object, the field, and what would be right.
 #include <initializer_list>
 #include <set>
 #include <span>
@@ -18,8 +18,8 @@ namespace sublimit {
 class RecipeObject {
  public:
   /// @param value  must outlive this
-  /// @param place  before every message: "file.json: recipe 2 'wing' (ruled)"
-  /// @param path   of the object in the recipe: "" or "c0."
+  /// @param place  start of messages: "file.json: recipe 2 'wing' (ruled)"
+  /// @param path   path of the object in the recipe: "" or "c0."
   RecipeObject(const JsonValue& value, std::string place, std::string path = "");
   RecipeObject(const JsonValue&&, std::string, std::string = "") = delete;
 
@@ -28,7 +28,8 @@ class RecipeObject {
 
   /// @throws FormatError
   [[noreturn]] void fail(std::string_view field, const std::string& what) const;
-  /// @throws FormatError  fields that nothing has asked for, with the nearest names
+  /// To be called after all reads: checks that there are no other fields.
+  /// @throws FormatError  a field that was not read; the message has the nearest names
   void finish() const;
 
   bool has(std::string_view field);
@@ -40,7 +41,7 @@ class RecipeObject {
   int integer_or(const std::string& field, int least, int most, int otherwise);
   bool flag_or(const std::string& field, bool otherwise);
   std::string string(const std::string& field, const char* what);
-  /// One of some words: its number.
+  /// Returns the number of a field's word among `words`.
   std::size_t word(const std::string& field, std::span<const char* const> words);
   std::size_t word_or(const std::string& field, std::span<const char* const> words, std::size_t otherwise);
 
@@ -49,16 +50,16 @@ class RecipeObject {
   std::vector<double> numbers(const std::string& field, std::size_t count);
   std::vector<int> integers(const std::string& field, std::size_t count, int least, int most);
   std::vector<bool> flags_or(const std::string& field, std::size_t count, bool otherwise);
-  /// Rows of numbers, all of a length, from `least` to `most` of them.
+  /// Returns rows of numbers of equal length, `least` to `most` numbers in each.
   ExactPoints exact_points(const std::string& field, std::size_t least, std::size_t most);
   Points points(const std::string& field, std::size_t least, std::size_t most);
-  /// Points in space; z is 0 where they have two numbers.
+  /// Returns points in space; z is 0 for points of two numbers.
   Points space_points(const std::string& field);
   /// Returns `count` points in space.
   Points space_points(const std::string& field, Eigen::Index count);
-  /// [x, y] or [x, y, z].
+  /// Returns a vector [x, y] or [x, y, z]; z is 0 if absent.
   Eigen::RowVector3d space_vector(const std::string& field);
-  /// Lists of points, one after the other, without names of their own.
+  /// Returns the lists of points in an array, with `least` to `most` coordinates for each point.
   std::vector<Points> lists_of_points(const std::string& field, std::size_t least, std::size_t most);
 
   RecipeObject object(const std::string& field, const char* what);
@@ -74,9 +75,9 @@ class RecipeObject {
   std::set<std::string, std::less<>> known_;
 };
 
-/// Values of exact points.
+/// Returns exact points rounded to doubles.
 Points rounded(const ExactPoints& points);
-/// Columns of 3 from columns of 2 or 3.
+/// Returns points of 3 columns from points of 2 or 3 columns, with z = 0.
 Points in_space(Points points);
 
 }  // namespace sublimit

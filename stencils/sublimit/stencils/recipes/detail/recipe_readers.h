@@ -19,7 +19,7 @@ std::span<const RecipeKind> construction_kinds();  ///< surfaces from curves
 std::span<const RecipeKind> blended_kinds();       ///< Hermite, Coons, Gregory, Gordon
 std::span<const RecipeKind> data_kinds();          ///< kinds that are given as data
 
-/// Control points and what they are: `points` or `homogeneous`, of so many coordinates.
+/// Control points as a recipe gives them: `points` or `homogeneous`.
 struct GivenColumns {
   Points columns;
   Coordinates coordinates = Coordinates::plain;
@@ -27,12 +27,13 @@ struct GivenColumns {
 /// Reads the points of a curve: in any dimension, or in space, where points of two coordinates have z = 0.
 GivenColumns read_columns(RecipeObject& object, bool in_any_dimension, std::vector<std::string>& notes);
 
-/// Open knots, or break points if closed; the number of control points has to fit.
+/// Reads knots: all knots of an open curve, or the break points of a closed one. Their number must fit the
+/// control points.
 /// @param points  number of control points
 Knots<double> read_knots(RecipeObject& object, const std::string& field, int degree, Eigen::Index points, bool closed,
                          std::vector<std::string>& notes);
 
-/// {degree, knots, points} or {degree, knots, homogeneous} in a field.
+/// Reads a curve in a field: {degree, knots, points} or {degree, knots, homogeneous}.
 CurveNet read_inner_curve(RecipeObject& object, const std::string& field, std::vector<std::string>& notes);
 
 void set_surface(Recipe& recipe, SplineNet net);

@@ -12,8 +12,9 @@ struct [[nodiscard]] RecipePatches {
   Points columns;                     ///< x 3, or x 4, homogeneous, if one of them is rational
   std::vector<const Recipe*> recipe;  ///< recipe of each patch
 };
-/// @param recipes  have to stay
-/// @param name     of the file, for messages
+/// Returns all surfaces of recipes as one source.
+/// @param recipes  must outlive the result
+/// @param name     name of the file, for messages
 /// @throws UnsupportedTopology  no surfaces; triangles beside squares
 RecipePatches recipe_patches(const std::vector<Recipe>& recipes, const std::string& name);
 RecipePatches recipe_patches(const std::vector<Recipe>&&, const std::string&) = delete;
@@ -24,7 +25,8 @@ struct [[nodiscard]] RecipeCurves {
   Coordinates coordinates = Coordinates::plain;
   std::vector<const Recipe*> recipe;  ///< recipe of each curve
 };
-/// @param recipes  have to stay
+/// Returns all curves of recipes as one source.
+/// @param recipes  must outlive the result
 /// @throws UnsupportedTopology  no curves
 RecipeCurves recipe_curves(const std::vector<Recipe>& recipes, const std::string& name);
 RecipeCurves recipe_curves(const std::vector<Recipe>&&, const std::string&) = delete;
