@@ -138,7 +138,7 @@ def test_statuses(tagged: sublimit.Mesh) -> None:
 MESHLESS: list[tuple[Any, str]] = [
     (np.zeros((4, 3)), r"points has shape \(4, 3\); \(20 control points, channels\) is right"),
     (np.zeros(60), r"points has shape \(60,\)"), (np.zeros((20, 0)), r"points has shape \(20, 0\)"),
-    (np.zeros((20, 3), complex), "points has dtype complex128"), (np.zeros((20, 3), object), "points has dtype object"),
+    (np.zeros((20, 3), complex), "points has dtype complex128"), (np.zeros((20, 3), object), "points is an array of objects"),
     (np.zeros((20, 65)), "65 channels; 1 to 64"), ([[1, 2], [3]], "inhomogeneous|points"),
     (np.ma.masked_array(np.zeros((20, 3)), mask=np.eye(20, 3)), "masked")]  # type: ignore[no-untyped-call]
 

@@ -161,22 +161,20 @@ class Mesh:
 
     @property
     def face_normals(self) -> arrays.Ints | None:
-        """Number of the normal in `normals` for each corner, -1 for none: (corners,). None if normals are per vertex or absent.
-        """
+        """Number of the normal in `normals` for each corner, -1 for none: (corners,). None if no corner has one. Read-only."""
         return self._core.face_normals if len(self._core.face_normals) else None
 
     @property
     def face_ids(self) -> arrays.Ints | None:
-        """A number for each face, (faces,); None if the mesh has none.
+        """A number for each face, (faces,); None if the mesh has none. Read-only.
 
-        For a mesh made by `tessellate` it is the face of the control mesh that the triangle lies on.
+        For a mesh that `tessellate` made it is the face of the control mesh that the triangle lies on.
         """
         return self._core.face_ids if len(self._core.face_ids) else None
 
     @property
     def face_names(self) -> list[str] | None:
-        """A name for each face, empty for none; None if no face has one. In an .obj it is the group of the face, else its object.
-        """
+        """A name for each face, empty for none; None if no face has one. In an .obj it is the group, else the object."""
         names = self._core.face_names
         return [name.decode("utf-8", "surrogateescape") for name in names] if names else None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Control meshes of fields, and files of CAD programs: by OpenVDB and OpenCASCADE, which are loaded when they are wanted."""
+"""Control meshes of fields, by OpenVDB, and files for CAD programs, by OpenCASCADE. Both libraries are loaded on first use."""
 from __future__ import annotations
 
 import operator
@@ -17,15 +17,15 @@ from ._surfaces import LimitSurface
 
 @dataclass(frozen=True)
 class ImplicitMesh:
-    """A control mesh whose limit is near to the level set of a field.
+    """Result of `implicit`: a control mesh whose limit is near the zero level set of a field.
 
     Attributes
     ----------
-    mesh : closed, with creases and corners where the field has sharp edges
-    met : whether the limit is within the tolerance, and no face is folded
-    tolerance : that was asked for, or was taken
-    largest_distance, mean_distance : of the limit from the surface, of samples
-    notes : what should be known
+    mesh : the control mesh: closed, with creases and corners where the field has sharp edges
+    met : True if the limit is within the tolerance and no face is folded
+    tolerance : tolerance that was given, or its default; a length
+    largest_distance, mean_distance : distances of sampled points of the limit from the level set
+    notes : list of str, warnings
     """
 
     __module__ = "sublimit"
@@ -39,16 +39,16 @@ class ImplicitMesh:
 
 @dataclass(frozen=True)
 class StepFile:
-    """What a CAD file has.
+    """Statistics of a file that `step` wrote.
 
     Attributes
     ----------
-    solids, shells : closed and open
-    faces : in the file
-    caps : around extraordinary vertices, before packing
-    deviation : of caps from the limit, measured
-    met : whether the tolerance is
-    is_valid : by OpenCASCADE's own check
+    solids, shells : numbers of closed and of open parts
+    faces : number of faces in the file
+    caps : number of faces around extraordinary vertices, before packing
+    deviation : measured distance of the caps from the limit, a length
+    met : True if the deviation is within the tolerance
+    is_valid : result of OpenCASCADE's own check
     """
 
     __module__ = "sublimit"
@@ -63,31 +63,32 @@ class StepFile:
 
 def implicit(field: Recipe, scheme: Scheme | str = "catmull-clark", *, cells: int = 0, tolerance: float = 0,
              option: Mapping[str, OptionValue] | None = None, threads: int = 0) -> ImplicitMesh:
-    """A control mesh whose limit is the level set 0 of a field, as ``sublimit implicit --help`` describes them.
+    """Computes a control mesh whose limit is the zero level set of a field. ``sublimit implicit --help`` describes fields.
 
     Parameters
     ----------
-    field : a path, .json; or the JSON itself, a str that begins with ``{``; or a dictionary. Negative inside
-    scheme : whose limit is fitted: a name, as in `schemes`, or what `scheme` makes
-    cells : along the longest side of the box, 4 or more; 0: as the recipe says, else as few as do
-    tolerance : largest distance of the limit from the surface, a length; 0: 1e-4 of the box's diagonal
-    option : options of the scheme by name
-    threads : at most so many (default: all)
+    field : path of a .json; or the JSON itself, a str that begins with ``{``; or a dictionary. The field is negative inside.
+    scheme : scheme of the limit: a name, as in `schemes`, or a `Scheme` (default: ``"catmull-clark"``)
+    cells : number of cells along the longest side of the box, 4 or more (default: 0, as the recipe says, else as few as meet the
+        tolerance)
+    tolerance : largest distance of the limit from the level set, a length (default: 0, 1e-4 of the diagonal of the box)
+    option : options of the scheme, {name: value}
+    threads : largest number of threads (default: all)
 
     Raises
     ------
     FormatError
-        What cannot be understood: names recipe and field, and says what would be right.
+        The recipe cannot be parsed; the message names recipe and field, and what would be right.
     InvalidMesh
-        A surface that nearly touches itself.
+        The level set nearly touches itself.
     InvalidParameter
-        A tolerance that is negative or not finite, cells below 4.
+        A tolerance that is negative or not finite, or cells below 4.
     InvalidOption
-        The part with OpenVDB is not here: the message has its package, and how to build it. A scheme that there is not.
+        An unknown scheme; or the library with OpenVDB is not installed: the message has its package, and how to build it.
     IoError
-        A missing file; a part that cannot be loaded, or is of another version.
+        The file is missing; or the library with OpenVDB cannot be loaded, or has another version.
     ResourceError
-        A grid beyond memory.
+        Not enough memory for the grid.
     """
     asked = request(scheme, option=option)
     made = _sublimit.implicit(recipe_bytes(field, "field"), asked, operator.index(cells), float(tolerance), threads)
@@ -99,32 +100,40 @@ def step(surface: LimitSurface | Patches, path: str | os.PathLike[str], *, toler
          join: str = "g0", pack: bool = True, face_names: Iterable[str] | None = None, threads: int = 0) -> StepFile:
     """Writes a surface for CAD programs: exact B-spline faces with shared edges, solids where it is closed.
 
-    Holes are left out. Of `Patches` each is a face.
+    A limit surface is written without its holes. `Patches` are written as one face for each patch; for them only `tolerance`
+    matters.
 
     Parameters
     ----------
-    path : .step, .stp or .brep. The file appears whole or not at all
-    tolerance : largest distance of the caps around extraordinary vertices from the limit, a length (default: 1e-5 of the
-        diagonal of the control points). Of patches: of sides that are one edge (default: 1e-9 of it)
-    join : ``"g0"``, or ``"g1"``: caps meet their neighbours with a common tangent plane, under schemes of quadrilaterals
-    pack : regular faces become the largest B-splines that keep knots and smoothness
-    face_names : a name for each face of the mesh, empty for none, such as `Mesh.face_names`; only faces of one name are packed
-    threads : at most so many (default: all)
+    surface : a `LimitSurface` or `Patches`
+    path : path that ends in .step, .stp or .brep. The file appears whole or not at all.
+    tolerance : largest distance, a length > 0. For limit surfaces: of the caps around extraordinary vertices from the limit
+        (default: 1e-5 of the diagonal of the control points). For patches: between sides that become one edge (default: 1e-9 of
+        the diagonal).
+    join : how caps meet their neighbours: ``"g0"``, at the same points, or ``"g1"``, with the same tangent planes too, which
+        needs a scheme of quadrilaterals (default: ``"g0"``)
+    pack : join regular faces to the largest B-splines that keep knots and smoothness (default: True)
+    face_names : a name for each face of the mesh, empty for none, such as `Mesh.face_names`; faces of different names are not
+        packed (default: no names)
+    threads : largest number of threads (default: all)
 
     Raises
     ------
     InvalidOption
-        Another extension, another word for `join`. The part with OpenCASCADE is not here: the message has its package, and how to build it.
+        Another extension, or another word for `join`; or the library with OpenCASCADE is not installed: the message has its
+        package, and how to build it.
     InvalidParameter
-        A tolerance that is not positive; names that are not one for each face.
+        A tolerance that is not positive, or names that are not one for each face.
     InvalidMesh
         No faces, or no extent.
     UnsupportedTopology
-        A scheme without polynomials; a patch that is no B-spline: which, and why.
+        A scheme without polynomials, or a patch that is no B-spline; the message says which and why.
     IoError
-        Unwritable; a part that cannot be loaded, or is of another version.
+        The file cannot be written; or the library with OpenCASCADE cannot be loaded, or has another version.
     ResourceError
-        More faces than a file may have; a full disk.
+        More faces than a file may have, or a full disk.
+    TypeError
+        `surface` is neither a `LimitSurface` nor `Patches`.
     """
     if not isinstance(surface, (LimitSurface, Patches)):
         raise TypeError(f"surface is a {type(surface).__name__}; a sublimit.LimitSurface or sublimit.Patches is right")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Classical surfaces: Bezier, B-spline, NURBS and the rest of free-form .obj files, and those of recipes."""
+"""Classical surfaces from free-form .obj files (Bezier, B-spline, NURBS, ...) and from recipes."""
 from __future__ import annotations
 
 import os
@@ -14,10 +14,10 @@ from ._tables import Table, bake_options
 
 
 class Patches(Source):
-    """Free-form surfaces as one: the faces (spans of knots) of one patch after the other. They never change.
+    """A set of classical surfaces with their control points. It never changes: threads may share it.
 
-    `Construction.surfaces` makes them, and ``Patches.read``. Places are (face, u, v) with u, v in [0, 1] from one knot to the
-    next; derivatives are by the patch's own parameters.
+    `Construction.surfaces` and ``Patches.read`` make it. Faces are the knot spans of all patches, patch by patch. Places are
+    (face, u, v), with u and v in [0, 1] from one knot to the next; derivatives are per unit of the patch's own parameters.
     """
 
     __module__ = "sublimit"
@@ -35,29 +35,36 @@ class Patches(Source):
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Patches:
-        """Surfaces of a free-form .obj, or of recipes (.json): ``construct(path).surfaces()``. Curves are left out, and trimming
-        loops.
+        """Reads the surfaces of a file, without curves and trimming loops; the same as ``construct(path).surfaces()``.
+
+        Parameters
+        ----------
+        path : path of a free-form .obj, or of recipes, .json
 
         Raises
         ------
-        InvalidMesh, UnsupportedTopology
+        UnsupportedTopology
             The file has no surfaces.
-        FormatError, IoError
-            As `construct` does.
+        InvalidMesh
+            The file has neither curves nor surfaces, or curves of a recipe do not meet where they must.
+        FormatError
+            The file cannot be parsed.
+        IoError
+            The file is missing or unreadable.
         """
         return cls._of(_sublimit.Construction(os.fsencode(path)).surfaces())
 
     @property
     def points(self) -> arrays.Floats:
-        """(control points, 3); of rational surfaces (control points, 4), homogeneous: (w x, w y, w z, w). Read-only."""
+        """Control points, (control points, 3); of rational surfaces (control points, 4): (w x, w y, w z, w). Read-only."""
         return self._core.columns
 
     def with_points(self, points: npt.ArrayLike) -> Patches:
-        """The surfaces with other control points, as in another frame.
+        """Returns the surfaces with other control points, as in another frame.
 
         Parameters
         ----------
-        points : of the shape of `points`
+        points : array of the shape of `Patches.points`, homogeneous if they are
 
         Raises
         ------
@@ -70,24 +77,42 @@ class Patches(Source):
 
     @property
     def weights(self) -> arrays.Floats | None:
-        """(control points,): the weights of rational surfaces, the last column of `points`."""
+        """Weights of rational surfaces, (control points,): the last column of `points`. None if they are not rational."""
         columns = self._core.columns
         return columns[:, 3] if columns.shape[1] == 4 else None
 
     @property
     def first_faces(self) -> arrays.Ints:
-        """(patches + 1,): the first face of each patch, and the end."""
+        """First face of each patch, then the number of all faces: (patches + 1,)."""
         return self._core.first_faces
 
     def bake(self, levels: int | None = None, *, grid: int | None = None,
              at: tuple[npt.ArrayLike, ...] | None = None, derivatives: int = 0,
              precision: str = "float", threads: int = 0) -> Table:
-        """A table of grids, of places, or of the nets that halving every span so often gives. To be applied to `points`; where
-        they are rational, to other ones of the same form, or with weights (`Table.apply`).
+        """Bakes a table of the patches, for control points of every frame. Give one of `levels`, `grid` and `at`.
+
+        The table of rational patches takes homogeneous control points, such as `points`, or points with weights; see
+        `Table.apply`.
 
         Parameters
         ----------
-        levels, grid, at, derivatives, precision : as in `bake`
+        levels : k for the control nets after halving every knot span k times
+        grid : N for N x N places on each face, sides included
+        at : places (face, u, v), arrays that broadcast to one shape; or (face, (u, v)), as `Table.addresses` returns
+        derivatives : number of derivatives at the places of `grid` or `at`: 0, 1 or 2 (default: 0)
+        precision : of the weights, ``"float"`` or ``"double"`` (default: ``"float"``)
+        threads : largest number of threads (default: all)
+
+        Raises
+        ------
+        InvalidParameter
+            None of levels, grid and at, or several; no places, places on no face, numbers outside their range.
+        InvalidOption
+            Another word for `precision`.
+        UnsupportedTopology
+            Levels of patches that have no control nets.
+        ResourceError
+            Not enough memory, predicted before it is taken.
         """
         options = bake_options(levels, False, grid, at, derivatives, precision, "levels, grid and at")
         return Table._of(_sublimit.bake_patches(self._core, options, threads))

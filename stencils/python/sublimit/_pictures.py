@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Small pictures for notebooks."""
+"""Small pictures of meshes, for notebooks."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -14,7 +14,7 @@ _SIZE = 240
 
 
 def mesh_picture(mesh: Mesh) -> str:
-    """Faces from the back to the front, as an SVG; of very large meshes some of them."""
+    """Returns a picture of a mesh as the text of an SVG, at most 2000 of its faces, drawn from back to front."""
     sizes, corners = mesh.faces
     if len(sizes) == 0:
         return ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Continuity reports: of schemes, proved; of meshes, measured."""
+"""Continuity reports: on schemes, with proofs, and on limits of meshes, by measurement."""
 from __future__ import annotations
 
 import json
@@ -14,9 +14,9 @@ from ._schemes import NamedScheme, OptionValue, Scheme, as_scheme, claim_word, r
 
 
 class Report(dict[str, Any]):
-    """A report as a dictionary, in the words of ``stencils/report_format.md``.
+    """A continuity report: a dictionary in the format of ``stencils/report_format.md``. `analyze` and `analyze_mesh` make it.
 
-    Notebooks show its first figure.
+    A notebook displays its first figure.
     """
 
     __module__ = "sublimit"
@@ -26,11 +26,27 @@ class Report(dict[str, Any]):
         self._text = text
 
     def save_html(self, path: str | os.PathLike[str]) -> None:
-        """Writes a page that needs nothing but itself. It appears whole or not at all."""
+        """Writes the report as one HTML file that refers to no other file. The file appears whole or not at all.
+
+        Raises
+        ------
+        IoError
+            The file cannot be written.
+        ResourceError
+            The disk is full.
+        """
         _sublimit.write_text(os.fspath(path), _sublimit.report_page(self._text))
 
     def save_json(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report as the program does; ``sublimit verify`` checks its proofs."""
+        """Writes the report as JSON; ``sublimit verify`` checks its proofs. The file appears whole or not at all.
+
+        Raises
+        ------
+        IoError
+            The file cannot be written.
+        ResourceError
+            The disk is full.
+        """
         _sublimit.write_text(os.fspath(path), self._text)
 
     def _repr_html_(self) -> str:
@@ -45,13 +61,24 @@ class Report(dict[str, Any]):
 
 def analyze(scheme: Scheme | str, valences: Iterable[int] = range(3, 13), *, claims: Mapping[str, object] | None = None,
             threads: int = 0) -> Report:
-    """What the limits of a scheme are like, decided in exact numbers.
+    """Returns a report on a scheme, computed in exact numbers.
+
+    It has the smoothness of limits on regular meshes and at extraordinary vertices, and whether the claims of the scheme are
+    proved, disproved or observed.
 
     Parameters
     ----------
-    scheme : of meshes or of curves; one of your own as well
-    valences : from 3 to 100
-    claims : what the scheme is said to do, by name, instead of its own claims, such as ``{"extraordinary": 2}``
+    scheme : name of a scheme for meshes or a linear one for curves, as in `schemes`, or a `Scheme`
+    valences : valences of vertices to analyse, 3 to 100 (default: 3 to 12)
+    claims : claims to check instead of the scheme's own, {name: value}, such as ``{"extraordinary": 2}``
+    threads : largest number of threads (default: all)
+
+    Raises
+    ------
+    InvalidOption
+        An unknown scheme, option or claim.
+    InvalidParameter
+        No valences, or one outside its range; masks that are not affine or are incomplete.
 
     Examples
     --------
@@ -74,12 +101,24 @@ def analyze_mesh(mesh: Mesh, scheme: Scheme | str, *, tolerance: Mapping[str, ob
                  boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
                  option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
                  strict: bool = False, threads: int = 0) -> Report:
-    """How smooth the limit of a mesh is, where, and why: measured on exact limits.
+    """Returns a report on the limit of a mesh: how smooth it is at which points and why, measured on exact limits.
+
+    Boundary, creasing and the other keyword arguments that are not listed are those of `refine`.
 
     Parameters
     ----------
-    tolerance : what is allowed across seams, such as ``{"g0": "0.01%", "g1": "0.1deg", "g2": "5%"}``
-    name : of the mesh, in the report
+    mesh : the control mesh
+    scheme : name of a scheme, as in `schemes`, or a `Scheme`
+    tolerance : largest gaps, angles and differences of curvature across seams, such as
+        ``{"g0": "0.01%", "g1": "0.1deg", "g2": "5%"}``. The report has no verdict on those that are absent (default: none).
+    name : name of the mesh in the report (default: ``"mesh"``)
+
+    Raises
+    ------
+    InvalidOption
+        A tolerance that cannot be parsed, or an unknown scheme, option or word.
+    UnsupportedTopology
+        The scheme cannot refine the mesh; the message says where.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
                     no_creases=no_creases, strict=strict)
