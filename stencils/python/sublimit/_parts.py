@@ -69,8 +69,8 @@ def implicit(field: Recipe, scheme: Scheme | str = "catmull-clark", *, cells: in
     ----------
     field : path of a .json; or the JSON itself, a str that begins with ``{``; or a dictionary. The field is negative inside.
     scheme : scheme of the limit: a name, as in `schemes`, or a `Scheme` (default: ``"catmull-clark"``)
-    cells : number of cells along the longest side of the box, 4 or more (default: 0, as the recipe says, else as few as meet the
-        tolerance)
+    cells : number of cells along the longest side of the box, 4 or more (default: 0, as the recipe says, else as few as meet
+        the tolerance)
     tolerance : largest distance of the limit from the level set, a length (default: 0, 1e-4 of the diagonal of the box)
     option : options of the scheme, {name: value}
     threads : largest number of threads (default: all)

@@ -70,7 +70,8 @@ def analyze(scheme: Scheme | str, valences: Iterable[int] = range(3, 13), *, cla
     ----------
     scheme : name of a scheme for meshes or a linear one for curves, as in `schemes`, or a `Scheme`
     valences : valences of vertices to analyse, 3 to 100 (default: 3 to 12)
-    claims : claims to check instead of the scheme's own, {name: value}, such as ``{"extraordinary": 2}``
+    claims : claims to check instead of the scheme's own, {name: value}, such as ``{"extraordinary": 2}``; ignored for curve
+        schemes
     threads : largest number of threads (default: all)
 
     Raises
@@ -78,7 +79,7 @@ def analyze(scheme: Scheme | str, valences: Iterable[int] = range(3, 13), *, cla
     InvalidOption
         An unknown scheme, option or claim.
     InvalidParameter
-        No valences, or one outside its range; masks that are not affine or are incomplete.
+        A valence outside its range; masks that are missing or not affine.
 
     Examples
     --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Schemes by name, and what is asked of them."""
+"""Schemes: those of the library by name, those of your own, and requests to the compiled part."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
@@ -15,7 +15,14 @@ OptionValue = Union[str, int, float, Fraction]
 
 @dataclass(frozen=True)
 class OptionInfo:
-    """An option of a scheme: its default, the values it takes and what it means, in words."""
+    """An option of a scheme.
+
+    Attributes
+    ----------
+    default : value of the option if it is not given
+    values : values that the option takes, in words
+    meaning : effect of the option, in words
+    """
 
     __module__ = "sublimit"
     default: str
@@ -25,22 +32,25 @@ class OptionInfo:
 
 @dataclass(frozen=True)
 class SchemeInfo:
-    """What a scheme is said to do.
+    """Properties of a scheme.
+
+    Numbers and `convex_hull` are claims of its authors, which `analyze` checks; None if nothing is claimed.
 
     Attributes
     ----------
-    kind : ``"surface"`` or ``"curve"``
-    linear : whether it has matrices
-    source : author, year, title
-    limit : what it is, in words
-    interpolates : whether control points stay
-    triangles : whether it takes triangles only
-    continuity : C^k on regular meshes; None where nothing is claimed
-    extraordinary_continuity : at extraordinary points
+    name : name of the scheme
+    kind : ``"surface"`` for schemes of meshes, ``"curve"`` for schemes of polygons
+    linear : True if the scheme has masks, and all that is computed from them, such as matrices
+    source : author, year and title of the publication
+    limit : limit of regular meshes or polygons, in words
+    interpolates : True if control points stay where they are
+    triangles : True if the scheme takes triangles only
+    continuity : k if limits are C^k, for surfaces on regular meshes
+    extraordinary_continuity : k if limits of surfaces are C^k at extraordinary vertices
     generates_degree : polynomials up to this degree are limits
-    reproduces_degree : they are the limits of their own values
-    convex_hull : whether no weight is negative
-    options : by name, as `scheme` takes them
+    reproduces_degree : polynomials up to this degree are limits of their own values
+    convex_hull : True if no weight is negative
+    options : {name: OptionInfo}, options that `scheme` accepts
     """
 
     __module__ = "sublimit"
@@ -69,7 +79,7 @@ def _all() -> dict[str, SchemeInfo]:
 
 
 def schemes() -> dict[str, SchemeInfo]:
-    """Every scheme by its name.
+    """Returns all schemes of the library, {name: SchemeInfo}, those of surfaces first.
 
     Examples
     --------
@@ -83,34 +93,38 @@ def schemes() -> dict[str, SchemeInfo]:
 
 
 class Scheme:
-    """A scheme: one by name, as `scheme` makes them, or one of your own.
+    """A subdivision scheme: one of the library, which `scheme` returns, or a subclass that you write.
 
-    A scheme of your own is a class with its masks as methods. A mask takes a site, the neighbourhood of the new point,
-    and returns a stencil, a sum of the site's points with weights. It is called once for each type of neighbourhood and
-    of number: with floats for meshes, with exact numbers for reports, where weights may be int, Fraction, and
-    ``site.ratio(p, q)`` and ``site.cos_2pi(k, n)`` (the cosine of k/n of a turn), which are what the site computes with.
-    An instance is used like a name: refine, limit, tables, reports.
+    A scheme of your own is a subclass with masks as methods. A mask takes a site, the neighbourhood of a new point, and
+    returns a stencil, a sum of points of the site with weights. It is called once for each type of neighbourhood and each
+    number type: floats for meshes, exact numbers for reports. Weights may be int, Fraction, and the constants
+    ``site.ratio(p, q)``, p/q, and ``site.cos_2pi(k, n)``, the cosine of 2 pi k/n, which have the number type of the call.
+    An instance of the subclass is used in place of a name by all functions: refine, limit, bake, analyze, ...
 
     Attributes
     ----------
-    name : of the scheme in messages and files (default: that of the class)
-    source : author, year, title
-    split : ``"pqq"`` faces become quadrilaterals around a point of their own, ``"ptq"`` triangles become four, ``"dqq"``
-        a point for each corner of a face, ``"mid-edge"`` a point for each edge, ``"sqrt3"`` triangles around points of
-        faces, ``"quads"`` an edge becomes a quadrilateral, ``"dual"`` faces become points, ``"keep"`` points move
-    steps : schemes whose masks make a level, one after the other, instead of masks of its own
-    sharpening : what may be sharp, ``"boundary"`` alone, what is ``"sharp"`` for ever, or ``"semi-sharp"``
-    period : levels after which masks and neighbourhoods repeat: 2 where the split turns (mid-edge, sqrt3)
-    wide_borders : `wide_edge` makes points of borders too
-    corners : of the faces that it takes, 0 for any; wide masks need faces of one size
-    preparation : schemes that make such faces of others, at level 0
-    claims : what it is said to do, for reports: ``{"regular": 2, "extraordinary": 1, "generates": 3, "reproduces": 1,
-        "convex_hull": True, "interpolates": False}``, any of them
+    name : name of the scheme in messages and files (default: the name of the class)
+    source : author, year and title of the publication
+    split : connectivity of one refinement step (default: ``"pqq"``)
+        ``"pqq"``: an n-gon becomes n quadrilaterals around a face point; ``"ptq"``: a triangle becomes four; ``"dqq"``: a
+        point for each corner of a face; ``"mid-edge"``: a point for each edge; ``"sqrt3"``: a triangle becomes three around
+        a face point, and old edges flip; ``"quads"``: a point for each face, a quadrilateral for each edge; ``"dual"``: a
+        point for each face, a face for each vertex; ``"keep"``: the same connectivity, points move.
+    steps : schemes whose masks are applied one after the other in each level, instead of masks of this scheme
+    sharpening : elements that may be sharp besides the boundary (default: ``"semi-sharp"``)
+        ``"boundary"``: none; ``"sharp"``: edges and vertices of infinite sharpness; ``"semi-sharp"``: any sharpness.
+    period : number of levels after which a neighbourhood has its old orientation: 1, or 2 for splits that rotate (mid-edge,
+        sqrt3)
+    wide_borders : True if `wide_edge` makes the points of border edges too, instead of the crease masks
+    corners : number of corners of the faces that the scheme takes, 0 for any; wide masks need faces of one size
+    preparation : schemes that turn faces of other sizes into faces with `corners` corners, before level 1
+    claims : properties for reports to check, any of ``{"regular": 2, "extraordinary": 1, "generates": 3, "reproduces": 1,
+        "convex_hull": True, "interpolates": False}``
 
     Notes
     -----
-    The masks, and what their sites have (corners and edges of a face count from 0, and -1 is the last one; others are
-    errors):
+    Masks are listed with the members of their sites. Corners and edges of a face count from 0, and -1 is the last one;
+    other numbers are errors.
 
     ``vertex(v)``, Ring
         center, valence, neighbor(i), face(i), diagonal(i) of quadrilaterals, neighbor_mean, face_centroid_mean,
@@ -120,16 +134,16 @@ class Scheme:
     ``face(f)``, and ``corner(f)`` of dqq, FaceSite
         size, corner(i), centroid, point
     ``wide_edge(e)`` instead of edge, WideEdgeSite
-        tail, head, tail_ring, head_ring, is_border; rings, also of vertices at borders, count from this edge on, and
-        have has_neighbor(i), is_closed and, of triangles, continued(i)
+        tail, head, tail_ring, head_ring, is_border; both rings count from this edge on, may be open, and have
+        has_neighbor(i), is_closed and, if faces are triangles, continued(i)
     ``wide_face(f)`` instead of face, WideFaceSite
         size, corner(i), ring(i), has_across(i), edge_point(i), edge_point_beyond(i)
     ``crease_vertex(v)``, CreaseSite, and ``crease_edge(e)``, CreaseEdgeSite
-        center, before, after; tail, head, before, after: along borders and sharp edges. Where a scheme with split pqq,
-        ptq or keep has none, it has those of cubic B-splines
+        center, before, after of the first, tail, head, before, after of the second: points along borders and sharp edges.
+        If absent, the splits pqq, ptq and keep take the masks of cubic B-splines
 
-    All sites have level (modulo the period), ratio(p, q) and cos_2pi(k, n). Masks must depend on nothing else: what one
-    has returned is kept until an attribute of the scheme is set.
+    All sites have level (modulo the period), ratio(p, q) and cos_2pi(k, n). Masks must depend on their site alone: their
+    results are cached until an attribute of the scheme is set.
 
     Examples
     --------
@@ -159,7 +173,7 @@ class Scheme:
 
     def __setattr__(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)
-        self.__dict__.pop("_known", None)  # what masks returned before
+        self.__dict__.pop("_known", None)  # the cached results of masks
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_known"}
@@ -180,7 +194,7 @@ class Scheme:
 
 @dataclass(frozen=True)
 class NamedScheme(Scheme):
-    """A scheme of the library with its options."""
+    """A scheme of the library with options, as pairs (name, value); `scheme` returns it."""
 
     name: str = ""
     options: tuple[tuple[str, str], ...] = ()
@@ -190,17 +204,17 @@ class NamedScheme(Scheme):
 
 
 def scheme(name: str, **options: OptionValue) -> Scheme:
-    """A scheme with options of its own.
+    """Returns a scheme of the library with given options.
 
     Parameters
     ----------
-    name : as in `schemes`
-    **options : words or numbers, ``-`` of a name written ``_``; ``Fraction(3, 4)`` stays exact
+    name : name of the scheme, as in `schemes`
+    **options : words or numbers; ``-`` in the name of an option is written ``_``. ``Fraction(3, 4)`` stays exact.
 
     Raises
     ------
     InvalidOption
-        No such scheme; an option that it does not know, or a value outside its range.
+        An unknown scheme, an option that the scheme does not have, or a value outside its range.
 
     Examples
     --------
@@ -215,7 +229,7 @@ def scheme(name: str, **options: OptionValue) -> Scheme:
 
 
 def _texts(options: Mapping[str, OptionValue]) -> dict[str, str]:
-    """As the compiled part takes them: names have ``-`` where arguments have ``_``."""
+    """Returns options as the compiled part takes them: values as text, and ``-`` in names instead of ``_``."""
     return {name.replace("_", "-"): _text(value) for name, value in options.items()}
 
 
@@ -224,12 +238,18 @@ def _text(value: OptionValue) -> str:
 
 
 def claim_word(value: object) -> str:
-    """A claim as the program takes it."""
+    """Returns the value of a claim as the program writes it: ``yes`` or ``no`` for a bool, else its text."""
     return ("yes" if value else "no") if isinstance(value, bool) else str(value)
 
 
 def as_scheme(scheme: Scheme | str) -> Scheme:
-    """A name as a scheme with its default options."""
+    """Returns the scheme of a name with its default options; a `Scheme` is returned as it is.
+
+    Raises
+    ------
+    TypeError
+        Neither a name nor an instance of `Scheme`.
+    """
     if isinstance(scheme, type) and issubclass(scheme, Scheme):
         raise TypeError(f"scheme is the class {scheme.__name__}; an instance, {scheme.__name__}(), is right")
     if not isinstance(scheme, (str, Scheme)):
@@ -239,7 +259,13 @@ def as_scheme(scheme: Scheme | str) -> Scheme:
 
 
 def curve_scheme(scheme: Scheme | str) -> NamedScheme:
-    """A scheme of curves, which are the library's."""
+    """Returns a curve scheme, which must be one of the library; whether there is one of this name is not checked.
+
+    Raises
+    ------
+    TypeError
+        A scheme of your own, which refines meshes; or neither a name nor a `Scheme`.
+    """
     named = as_scheme(scheme)
     if not isinstance(named, NamedScheme):
         raise TypeError(f"{named} refines meshes; schemes of curves go by their names (sublimit.schemes())")
@@ -249,7 +275,7 @@ def curve_scheme(scheme: Scheme | str) -> NamedScheme:
 def request(scheme: Scheme | str, *, boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
             face_varying: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
             no_creases: bool = False, strict: bool = False) -> _sublimit.MeshRequest:
-    """What is asked of a mesh, for the compiled part."""
+    """Returns scheme, rules and flags as a request to the compiled part. The parameters are those of `refine`."""
     own = as_scheme(scheme)
     asked = _sublimit.MeshRequest()
     asked.options = _texts(option or {})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The exact limit anywhere: points, derivatives, normals, curvature, stencils, closest points, rays."""
+"""Exact limit surfaces at any place: points, derivatives, normals, curvature, stencils, closest points, rays, triangles."""
 from __future__ import annotations
 
 import math
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Curvature:
-    """Curvature of a surface; NaN where there is none.
+    """Curvature of a surface at places, per unit of length; NaN where undefined. `Samples.curvature` makes it.
 
     Attributes
     ----------
-    gauss, mean : (...); mean > 0 where the surface bends towards its normal
+    gauss, mean : (...), Gaussian and mean curvature; mean > 0 where the surface bends towards its normal
     k1, k2 : (...), principal curvatures, k1 >= k2
-    direction1, direction2 : (..., 3), their directions: of length one, in the tangent plane
+    direction1, direction2 : (..., 3), principal directions of k1 and k2: unit length, in the tangent plane
     """
 
     __module__ = "sublimit"
@@ -43,7 +43,7 @@ class Curvature:
 
 
 class SampledParts:
-    """What samples of surfaces and curves have alike: arrays of the shape of the places."""
+    """Base class of samples of surfaces and curves: arrays whose first axes are those of the places."""
 
     statuses: tuple[str, ...] = _sublimit.statuses
 
@@ -64,56 +64,58 @@ class SampledParts:
 
 
 class Samples(SampledParts):
-    """What there is at places of a surface. What does not exist is zero; `order` and `status` say what does.
+    """Points, derivatives and normals at places of a surface, in arrays whose first axes are those of the places.
+
+    Quantities that do not exist at a place are zero; `order` and `status` say which exist.
 
     Attributes
     ----------
-    points : (..., 3)
-    du, dv, duu, duv, dvv : (..., 3), per unit of u and v; AttributeError if they were not asked for
-    normals : (..., 3), of length one; zero where there is none; likewise
-    status : (...), numbers; ``statuses[number]`` is the word
-    order : (...), derivatives that there are: 0, 1 or 2
+    points : (..., 3), positions
+    du, dv, duu, duv, dvv : (..., 3), derivatives per unit of u and v; AttributeError if `evaluate` was called with fewer
+    normals : (..., 3), unit normals, zero where undefined; AttributeError if `evaluate` was called without derivatives
+    status : (...), int8; ``statuses[number]`` is its name
+    order : (...), int8, number of derivatives that exist: 0, 1 or 2
     """
 
     __module__ = "sublimit"
 
     @property
     def du(self) -> arrays.Floats:
-        """(..., 3): the derivative along u."""
+        """First derivative along u, (..., 3). AttributeError if `evaluate` was called without derivatives."""
         return self._part("du", 1)
 
     @property
     def dv(self) -> arrays.Floats:
-        """(..., 3): the derivative along v."""
+        """First derivative along v, (..., 3). AttributeError if `evaluate` was called without derivatives."""
         return self._part("dv", 1)
 
     @property
     def duu(self) -> arrays.Floats:
-        """(..., 3): the second derivative along u."""
+        """Second derivative along u, (..., 3). AttributeError if `evaluate` was called with fewer than 2 derivatives."""
         return self._part("duu", 2)
 
     @property
     def duv(self) -> arrays.Floats:
-        """(..., 3): the mixed derivative."""
+        """Mixed second derivative, (..., 3). AttributeError if `evaluate` was called with fewer than 2 derivatives."""
         return self._part("duv", 2)
 
     @property
     def dvv(self) -> arrays.Floats:
-        """(..., 3): the second derivative along v."""
+        """Second derivative along v, (..., 3). AttributeError if `evaluate` was called with fewer than 2 derivatives."""
         return self._part("dvv", 2)
 
     @property
     def normals(self) -> arrays.Floats:
-        """(..., 3): unit normals."""
+        """Unit normals, (..., 3). AttributeError if `evaluate` was called without derivatives."""
         return self._part("normals", 1)
 
     def curvature(self) -> Curvature:
-        """Curvature where there are two derivatives and the first ones span a plane.
+        """Returns the curvature; NaN at places without second derivatives, or whose first derivatives do not span a plane.
 
         Raises
         ------
         InvalidParameter
-            The samples were taken with fewer derivatives.
+            `evaluate` was called with fewer than 2 derivatives.
         """
         if "duu" not in self._parts:
             raise InvalidParameter("curvature needs second derivatives: evaluate(..., derivatives=2)")
@@ -128,18 +130,19 @@ class Samples(SampledParts):
 
 @dataclass(frozen=True)
 class ClosestPoints:
-    """Nearest points of a surface, a row each: n of n points, unless ``nearest`` or ``radius`` was given.
+    """Nearest points of a surface, in n rows: one for each query, unless `nearest` or `radius` was given.
 
     Attributes
     ----------
-    face, u, v : (n,), where they are
-    points : (n, 3)
-    normals : (n, 3), there; zero where there is none
-    distance : (n,), from the points given; below 0 inside, if signed
-    lower : (n,), the surface, less the faces of the rows before, is not nearer, as is proved: the distance but for rounding,
-        less where the proof was cut short; 0 where nothing is proved, as of schemes without polynomials
-    status : (n,), numbers; ``Samples.statuses[number]`` is the word
-    first : (points + 1,), rows of point i are ``first[i]:first[i + 1]``, the nearest first
+    face, u, v : (n,), place of each point on the surface
+    points : (n, 3), points of the surface
+    normals : (n, 3), normals there; zero where undefined
+    distance : (n,), distance from the query; if signed, negative inside
+    lower : (n,), proved lower bound of the distance of the surface without the faces of the query's rows before
+        It is the distance up to rounding, or less if the proof was cut short. 0 if nothing is proved, as for schemes without
+        polynomials.
+    status : (n,), int8; ``Samples.statuses[number]`` is its name
+    first : (queries + 1,), rows of query i are ``first[i]:first[i + 1]``, the nearest first
     """
 
     __module__ = "sublimit"
@@ -156,20 +159,21 @@ class ClosestPoints:
 
 @dataclass(frozen=True)
 class RayHits:
-    """Where rays meet a surface, a row each hit.
+    """Hits of rays with a surface, in n rows, sorted by ray.
 
     Attributes
     ----------
-    t : (n,), hits are at ``origin + t * direction``
-    face, u, v : (n,), where they are
-    points : (n, 3)
-    normals : (n, 3), there; zero where there is none
-    status : (n,), numbers; ``Samples.statuses[number]`` is the word
-    kind : (n,), numbers; ``kinds[number]`` is the word: ``crossing``; ``touching`` where the ray touches the surface or runs
-        within it, as near as numbers go; ``given-up`` where the search stopped, with the point of the ray there: what the
-        ray meets from this t on may not be all
-    first : (rays + 1,), hits of ray i are ``first[i]:first[i + 1]``, by rising t
-    undecided : (rays,), how many hits of a ray are no crossings
+    t : (n,), parameter of each hit on its ray: the hit is at ``origin + t * direction``
+    face, u, v : (n,), place of each hit on the surface
+    points : (n, 3), points of the surface; of the ray, if it was given up
+    normals : (n, 3), normals there; zero where undefined
+    status : (n,), int8; ``Samples.statuses[number]`` is its name; ``outside`` if the ray was given up
+    kind : (n,), int8; ``kinds[number]`` is its name
+        ``crossing``: the ray passes from one side of the surface to the other. ``touching``: it meets the surface to rounding,
+        but no crossing is seen, as where it touches the surface or runs within it. ``given-up``: no hit, the search stopped at
+        this t, and hits beyond it may be missing.
+    first : (rays + 1,), hits of ray i are ``first[i]:first[i + 1]``, by increasing t
+    undecided : (rays,), number of hits of each ray that are no crossings
     """
 
     __module__ = "sublimit"
@@ -187,25 +191,27 @@ class RayHits:
 
     @property
     def words(self) -> list[str]:
-        """The word of each hit, as files have it: of its kind, or of its status where the ray crosses."""
+        """Name of each hit in files: the name of its status for crossings, else the name of its kind."""
         return [self.kinds[kind] if kind else Samples.statuses[status] for kind, status in zip(self.kind, self.status)]
 
 
 @dataclass(frozen=True)
 class Tessellation:
-    """Triangles near a surface, without cracks.
+    """Triangles near a surface, without cracks. `LimitSurface.tessellate` makes them.
+
+    ``bake(mesh, scheme, tessellation=...)`` makes a table that moves the points with the control mesh.
 
     Attributes
     ----------
-    points : (n, 3), of the limit
-    triangles : (m, 3), their corners, counter-clockwise
-    triangle_face : (m,), the face of the surface that each is on
-    corners : (m, 3, 2), (u, v) of its corners there
-    normals : (m, 3, 3), of the surface at the corners, of this face's side at creases; zero where there is none. None if they
-        were not asked for
-    face, u, v : (n,), places of the points: ``bake(mesh, scheme, tessellation=it)`` makes a table that follows a moving mesh
-    bound : no point of a triangle is farther from that of the surface with the same parameters
-    cells : of triangles, that the bound was proved for
+    points : (n, 3), points of the limit
+    triangles : (m, 3), rows of `points`, counter-clockwise
+    triangle_face : (m,), face of the surface that each triangle lies on, as in places
+    corners : (m, 3, 2), parameters (u, v) of the corners of each triangle in that face
+    normals : (m, 3, 3), normals of the surface at the corners, at creases on the side of the triangle; zero where undefined
+        None unless they were requested.
+    face, u, v : (n,), place of each point, on one of the faces that share it
+    bound : proved bound of the distance between a point of a triangle and the point of the surface with the same parameters
+    cells : number of cells of the surface that were cut into triangles
     """
 
     __module__ = "sublimit"
@@ -222,7 +228,7 @@ class Tessellation:
 
 
 class Source:
-    """A surface that is linear in its control points: of a mesh (`LimitSurface`), of patches (`Patches`)."""
+    """Base class of surfaces that are linear in their control points: `LimitSurface` and `Patches`."""
 
     __module__ = "sublimit"
     __slots__ = ("_core", "__weakref__")
@@ -230,22 +236,23 @@ class Source:
 
     @property
     def num_faces(self) -> int:
-        """Faces that places may be on."""
+        """Number of faces that places may be on."""
         return self._core.num_faces
 
     @property
     def num_points(self) -> int:
-        """Control points."""
+        """Number of control points."""
         return self._core.num_points
 
     def evaluate(self, face: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike, derivatives: int = 0, *,
                  threads: int = 0) -> Samples:
-        """Points of the surface, exact to rounding.
+        """Evaluates places of the surface, exactly up to rounding.
 
         Parameters
         ----------
-        face, u, v : arrays that broadcast to one shape
-        derivatives : 0, 1 or 2
+        face, u, v : integers, and parameters in the face; arrays that broadcast to one shape
+        derivatives : number of derivatives: 0, 1 (du, dv, normals) or 2 (duu, duv, dvv too)
+        threads : largest number of threads (default: all)
 
         Returns
         -------
@@ -254,40 +261,59 @@ class Source:
         Raises
         ------
         InvalidParameter
-            A face that there is not, parameters outside of it or not finite.
+            A face that does not exist, parameters outside of it or not finite.
         InvalidMesh
-            A position or a derivative larger than numbers are (1.8e308).
+            A position or a derivative overflows (1.8e308).
         """
         faces, at_u, at_v, shape = places(face, u, v)
         return Samples(self._core.evaluate(faces, at_u, at_v, order(derivatives), threads), shape)
 
     def stencils(self, face: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike, derivatives: int = 0, *,
                  threads: int = 0) -> list[csr_array]:
-        """What `evaluate` multiplies control points with: a row for each place, in the order of the broadcast array.
+        """Returns the weights that `evaluate` multiplies the control points with, a row for each place of the flattened arrays.
+
+        Parameters
+        ----------
+        face, u, v : integers, and parameters in the face; arrays that broadcast to one shape
+        derivatives : number of derivatives: 0, 1 or 2
+        threads : largest number of threads (default: all)
 
         Returns
         -------
         list of scipy.sparse.csr_array, (places, control points)
-            Position; du, dv; duu, duv, dvv, as many as asked for. Rows of what does not exist are empty.
+            Matrices of the position, then of du, dv, then of duu, duv, dvv, as far as requested. Rows of derivatives that do
+            not exist are empty. For rational patches they map homogeneous control points to homogeneous points.
+
+        Raises
+        ------
+        InvalidParameter
+            A face that does not exist, parameters outside of it or not finite.
+        ResourceError
+            More weights than 32-bit indices count.
         """
         faces, at_u, at_v, _ = places(face, u, v)
         return [csr(parts) for parts in self._core.stencils(faces, at_u, at_v, order(derivatives), threads)[0]]
 
     def closest(self, points: npt.ArrayLike, *, nearest: int = 1, radius: float = math.inf, signed: bool = False,
                 threads: int = 0) -> ClosestPoints:
-        """Nearest points of the surface.
+        """Returns the nearest points of the surface to given points. Holes are left out.
 
         Parameters
         ----------
-        points : (n, 3)
-        nearest : number of nearest faces of each point, with the nearest place on each; fewer where there are no more
-        radius : what is farther is left out
-        signed : distances of points inside are below 0
+        points : (n, 3), the queries
+        nearest : number of nearest faces for each query, each with its nearest point; fewer if there are no more (default: 1)
+        radius : points of the surface that are farther away are left out, a length (default: infinity)
+        signed : give negative distances to queries inside a closed surface (default: False)
+        threads : largest number of threads (default: all)
 
         Raises
         ------
+        InvalidParameter
+            An array of another shape or type; NaN and infinite numbers; `nearest` below 1, a radius below 0.
+        InvalidMesh
+            No face that is not a hole.
         UnsupportedTopology
-            Signed distances from a surface that is not closed.
+            Signed distances from a surface that is not closed; the message says where.
 
         Examples
         --------
@@ -301,26 +327,29 @@ class Source:
 
     def intersect(self, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: npt.ArrayLike = 0,
                   tmax: npt.ArrayLike = math.inf, all: bool = False, most_parts: int = 8000, threads: int = 0) -> RayHits:
-        """Where rays meet the surface; none is missed, and a ray through a side that faces share hits once.
+        """Returns the hits of rays with the surface. Holes are left out.
 
-        Of schemes without polynomials (``butterfly``, ``kobbelt``, the sqrt3) every hit is one, but that there are no
-        others is estimated. A ray that meets too much of the surface is given up, and has a hit that says so
-        (`RayHits.kind`).
+        No hit is missed, and a ray through a side that several faces share has one hit there. For schemes without polynomials
+        (``butterfly``, ``kobbelt``, the sqrt3 schemes) the extent of the surface is estimated, and hits may be missed. A ray
+        that needs too many cells of the surface is given up, and has a hit of that kind (`RayHits.kind`).
 
         Parameters
         ----------
         origins : (n, 3) or (3,)
         directions : (n, 3) or (3,), of any length
-        tmin, tmax : (n,) or numbers, of ``origin + t * direction``
-        all : all hits, not the nearest alone
-        most_parts : to look at within one part of the surface, and 64 times as many in all, before a ray is given up
+        tmin, tmax : (n,) or numbers, range of t on each ray ``origin + t * direction`` (default: 0 to infinity)
+        all : return all hits, not only the nearest (default: False)
+        most_parts : largest number of cells to search within one part of the surface before a ray is given up, 1 or more; 64
+            times as many within all parts (default: 8000)
+        threads : largest number of threads (default: all)
 
         Raises
         ------
         InvalidParameter
-            A direction of 0, a ray that is not finite or ends before it begins.
+            An array of another shape or type; a direction of 0, a ray that is not finite or ends before it begins; `most_parts`
+            below 1.
         UnsupportedTopology
-            Patches that are neither polynomials nor quotients of them (screw surfaces), or have poles.
+            Patches that are neither polynomial nor rational (screw surfaces), or that have poles.
 
         Examples
         --------
@@ -347,14 +376,13 @@ class Source:
 
 
 class LimitSurface(Source):
-    """The limit surface of a mesh. It never changes; threads may share it.
+    """The limit surface of a mesh with its control points. It never changes: threads may share it.
 
-    Places are (face, u, v): a quadrilateral is one face, [0,1] x [0,1] from its first corner; another polygon is one for
-    each corner, numbered as Ptex does; under schemes for triangles each triangle is one, u, v >= 0, u + v <= 1.
+    Places are (face, u, v). A quadrilateral is one face, with u, v in [0, 1] from its first corner. Any other polygon has one
+    such face for each corner, numbered as in Ptex. Under schemes for triangles each triangle is one face, with u, v >= 0 and
+    u + v <= 1.
 
-    Parameters
-    ----------
-    mesh, scheme and options : as in `refine`
+    Parameters and errors are those of `refine`.
 
     Examples
     --------
@@ -380,15 +408,15 @@ class LimitSurface(Source):
 
     @property
     def points(self) -> arrays.Floats:
-        """(control points, 3): those of the mesh, read-only."""
+        """Control points, (control points, 3), read-only."""
         return self._core.points
 
     def with_points(self, points: npt.ArrayLike) -> LimitSurface:
-        """The surface with other control points, as in another frame: what depends on connectivity is shared, not made again.
+        """Returns the surface with other control points, as in another frame. All that depends on connectivity is shared.
 
         Parameters
         ----------
-        points : (control points, 3)
+        points : (control points, 3), real numbers
 
         Raises
         ------
@@ -402,26 +430,30 @@ class LimitSurface(Source):
 
     def tessellate(self, chord: float, *, angle: float = 0, max_triangles: int = 1 << 24, rates: Any = None,
                    normals: bool = False, threads: int = 0) -> Tessellation:
-        """As few triangles as a proved bound on their distance from the surface allows.
+        """Returns triangles within a proved distance of the surface, without cracks. Holes are left out.
 
         Parameters
         ----------
-        chord : largest distance, > 0
-        angle : largest angle between two normals in the cell of a triangle, in radians, but not at extraordinary vertices;
-            0: any
-        max_triangles : ResourceError if more are needed
-        rates : {(tail, head): segments}, rows (tail, head, segments) or ``(edges, segments)``, two arrays, optional
-            Into how many segments an edge of the mesh is cut at least; 1 where there is none
-        normals : whether corners of triangles have normals
+        chord : largest distance between a point of a triangle and the point of the surface with the same parameters, a
+            length > 0
+        angle : largest angle between two normals of a cell, in radians; not enforced around extraordinary vertices (default: 0,
+            any)
+        max_triangles : largest number of triangles (default: 2**24)
+        rates : {(tail, head): segments}, rows (tail, head, segments) or two arrays ``(edges, segments)``, optional
+            Least number of segments for an edge of the mesh, >= 1; 1 for edges that are not given.
+        normals : compute normals at the corners of triangles (default: False)
+        threads : largest number of threads (default: all)
 
         Raises
         ------
         InvalidParameter
-            A chord that is not positive, a negative angle; rates of what is no edge, below 1, or two of an edge.
+            A chord that is not positive, or a negative angle; a rate of a pair of vertices that is no edge, below 1, or given
+            twice.
         UnsupportedTopology
-            A scheme without polynomials: nothing is proved there.
+            A scheme whose distances to triangles cannot be proved: without polynomials, or with negative weights at
+            extraordinary vertices.
         ResourceError
-            More triangles than allowed.
+            More than `max_triangles` triangles.
 
         Examples
         --------
@@ -440,26 +472,27 @@ class LimitSurface(Source):
 
 def closest(surface: Source, points: npt.ArrayLike, *, nearest: int = 1, radius: float = math.inf, signed: bool = False,
             threads: int = 0) -> ClosestPoints:
-    """Nearest points of a `LimitSurface` or of `Patches`: their method `closest`.
+    """Returns the nearest points of a surface to given points, by its method `closest`.
 
     Parameters
     ----------
     surface : a `LimitSurface` or `Patches`
-    points : (n, 3)
-    nearest : number of nearest faces of each point, with the nearest place on each
-    radius : what is farther is left out, a length
-    signed : distances of points inside are below 0
+    points : (n, 3), the queries
+    nearest : number of nearest faces for each query, each with its nearest point; fewer if there are no more (default: 1)
+    radius : points of the surface that are farther away are left out, a length (default: infinity)
+    signed : give negative distances to queries inside a closed surface (default: False)
+    threads : largest number of threads (default: all)
 
     Raises
     ------
     TypeError
-        Another surface, such as a `Mesh`, which has one under a scheme.
+        `surface` is neither, such as a `Mesh`, which has a limit surface only under a scheme.
     InvalidParameter
-        Points of another shape or type, NaN and infinite ones; `nearest` below 1, a radius below 0.
+        An array of another shape or type; NaN and infinite numbers; `nearest` below 1, a radius below 0.
     InvalidMesh
         No face that is not a hole.
     UnsupportedTopology
-        Signed distances from a surface that is not closed.
+        Signed distances from a surface that is not closed; the message says where.
 
     Examples
     --------
@@ -473,25 +506,27 @@ def closest(surface: Source, points: npt.ArrayLike, *, nearest: int = 1, radius:
 
 def intersect(surface: Source, origins: npt.ArrayLike, directions: npt.ArrayLike, *, tmin: npt.ArrayLike = 0,
               tmax: npt.ArrayLike = math.inf, all: bool = False, most_parts: int = 8000, threads: int = 0) -> RayHits:
-    """Where rays meet a `LimitSurface` or `Patches`: their method `intersect`.
+    """Returns the hits of rays with a surface, by its method `intersect`.
 
     Parameters
     ----------
     surface : a `LimitSurface` or `Patches`
     origins, directions : (n, 3) or (3,); directions of any length
-    tmin, tmax : (n,) or numbers, of ``origin + t * direction``
-    all : all hits, not the nearest alone
-    most_parts : to look at within one part of the surface, before a ray is given up
+    tmin, tmax : (n,) or numbers, range of t on each ray ``origin + t * direction`` (default: 0 to infinity)
+    all : return all hits, not only the nearest (default: False)
+    most_parts : largest number of cells to search within one part of the surface before a ray is given up, 1 or more; 64 times
+        as many within all parts (default: 8000)
+    threads : largest number of threads (default: all)
 
     Raises
     ------
     TypeError
-        Another surface, such as a `Mesh`, which has one under a scheme.
+        `surface` is neither, such as a `Mesh`, which has a limit surface only under a scheme.
     InvalidParameter
-        Rays of other shapes or types, or that do not fit together, NaN and infinite ones; a
-        direction of 0, a ray that ends before it begins.
+        Arrays of other shapes or types, or that do not fit together; a direction of 0, a ray that is not finite or ends before
+        it begins; `most_parts` below 1.
     UnsupportedTopology
-        Patches that are neither polynomials nor quotients of them, or have poles.
+        Patches that are neither polynomial nor rational (screw surfaces), or that have poles.
 
     Examples
     --------
@@ -519,28 +554,34 @@ def tessellate(mesh: Mesh | LimitSurface, scheme: Scheme | str | None = None, *,
                creasing: str | None = None, triangles: str | None = None, face_varying: str | None = None,
                option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
                strict: bool = False, threads: int = 0) -> Mesh | Tessellation:
-    """Triangles near the limit of a mesh, as a mesh; or those of a `LimitSurface`, which is its method `tessellate`.
+    """Returns triangles within a proved distance of a limit surface, without cracks.
+
+    The triangles are a `Mesh` if a mesh and a scheme are given, and a `Tessellation` if a `LimitSurface` is given.
+    Boundary, creasing and the other keyword arguments that are not listed are those of `refine`; only a `Mesh` takes them.
 
     Parameters
     ----------
-    mesh : a `Mesh`, with the scheme and rules as in `refine`; or a `LimitSurface`, without
-    chord, angle, max_triangles, rates, normals : as in `LimitSurface.tessellate`
+    mesh : a `Mesh`; or a `LimitSurface`, whose method `tessellate` is called
+    scheme : for a `Mesh`: name of a scheme, as in `schemes`, or a `Scheme`
+    chord, angle, max_triangles, rates, normals, threads : as in `LimitSurface.tessellate`
 
     Returns
     -------
     Mesh or Tessellation
-        The mesh has its texture coordinates, normals of corners, if they are wanted, and in `Mesh.face_ids` the face of the
-        control mesh that each triangle lies on. Holes are left out.
+        A `Mesh` has the texture coordinates of the control mesh, normals at corners if `normals` is set, and in `Mesh.face_ids`
+        the face of the control mesh that each triangle lies on. Holes are left out.
 
     Raises
     ------
+    TypeError
+        A `Mesh` without a scheme, or a `LimitSurface` with one.
     InvalidParameter, UnsupportedTopology, ResourceError
         As `LimitSurface.tessellate`.
 
     Notes
     -----
-    Texture coordinates that the scheme has no limit of are left out with a `MeshWarning`; if `face_varying` is given they are
-    an error.
+    Texture coordinates that the scheme cannot refine are left out with a `MeshWarning`. If `face_varying` is given, they raise
+    an error instead.
 
     Examples
     --------
@@ -569,28 +610,50 @@ _AnySource = TypeVar("_AnySource", bound=Source)
 
 
 def surface_of(surface: Any, kind: type[_AnySource]) -> _AnySource:
-    """What a function is to be given."""
+    """Returns `surface` if it is of a given kind.
+
+    Raises
+    ------
+    TypeError
+        A value of another kind.
+    """
     if not isinstance(surface, kind):
         raise TypeError(f"surface is a {type(surface).__name__}; a sublimit.LimitSurface or sublimit.Patches is right")
     return surface
 
 
 def _rates(rates: Any) -> tuple[arrays.Ints, arrays.Ints]:
-    """Edges and their rates, as the compiled part takes them."""
+    """Returns edges, (edges, 2), and their rates, (edges,), as the compiled part takes them."""
     rows = tag_rows(rates, "rates", 3, "{(tail, head): segments}, rows (tail, head, segments) or (edges, segments)")
     edges = whole(rows[:, :2], "rates", "vertex")
     return edges, whole(rows[:, 2], "rates", "the rate")
 
 
 def order(derivatives: int) -> int:
-    """As the compiled part takes it."""
+    """Returns a number of derivatives as an int.
+
+    Raises
+    ------
+    InvalidParameter
+        Another number than 0, 1 and 2.
+    """
     if derivatives not in (0, 1, 2):
         raise InvalidParameter(f"derivatives is {derivatives}; 0, 1 or 2 are right")
     return int(derivatives)
 
 
 def places_of(at: Any) -> tuple[arrays.Ints, arrays.Floats, arrays.Floats]:
-    """Flat arrays of (face, u, v), or of (face, (u, v)), as tables have them."""
+    """Returns places as three flat arrays: face, u, v.
+
+    Parameters
+    ----------
+    at : (face, u, v), arrays that broadcast to one shape; or (face, (u, v)), as `Table.addresses` returns
+
+    Raises
+    ------
+    InvalidParameter
+        Another form; arrays of other types, or that do not broadcast.
+    """
     if not isinstance(at, (tuple, list)) or len(at) not in (2, 3):
         raise InvalidParameter("at is not (face, u, v) or (face, (u, v)), as Table.addresses has it")
     if len(at) == 2:
@@ -603,7 +666,13 @@ def places_of(at: Any) -> tuple[arrays.Ints, arrays.Floats, arrays.Floats]:
 
 def places(face: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike) -> tuple[arrays.Ints, arrays.Floats, arrays.Floats,
                                                                             tuple[int, ...]]:
-    """Three flat arrays, and the shape that theirs broadcast to."""
+    """Returns places as three flat arrays, face, u and v, and the shape that the given arrays broadcast to.
+
+    Raises
+    ------
+    InvalidParameter
+        Arrays of other types, or that do not broadcast.
+    """
     names = ("face", "u", "v")
     given = [arrays.any_array(part, name) for part, name in ((face, "face"), (u, "u"), (v, "v"))]
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tables: what a topology makes of any points, baked once, applied every frame."""
+"""Tables: weights over the control points of one connectivity, baked once and applied to the points of every frame."""
 from __future__ import annotations
 
 import operator
@@ -25,15 +25,18 @@ if TYPE_CHECKING:
 
 
 class Table:
-    """A table; `bake` makes it, `load` reads it. It never changes; threads may share it.
+    """A table: points of a level, of its limit, or of places on the limit, as weighted sums of control points.
+
+    `bake` and `Patches.bake` make it, `load` reads it. It never changes: threads may share it.
 
     Attributes
     ----------
-    num_points : points that it makes
-    num_control_points : points that it is applied to
-    quantities : 1: positions; 3: du and dv too; 6: duu, duv and dvv as well
-    dtype : of its weights, and of what it makes
-    rational : it is applied to homogeneous columns (w x, w y, w z, w), or to points with weights, and divides
+    num_points : number of points that it makes
+    num_control_points : number of points that it is applied to
+    quantities : 1: positions; 3: du and dv too; 6: duu, duv and dvv too
+    dtype : numpy.dtype of weights and results, float32 or float64
+    rational : True if it is applied to homogeneous points (w x, w y, w z, w), or to points with weights, and divides by the
+        weight
 
     Examples
     --------
@@ -66,7 +69,7 @@ class Table:
     def _of(cls, core: _sublimit.FloatTable | _sublimit.DoubleTable) -> Table:
         table = cls.__new__(cls)
         table._core = core
-        # Kept here: every call looks at them, and small tables take no longer to apply than some calls of the compiled part.
+        # Copied because every call reads them: a few calls of the compiled part take as long as applying a small table.
         table.dtype = np.dtype(np.float32 if isinstance(core, _sublimit.FloatTable) else np.float64)
         table.num_points = core.num_points
         table.num_control_points = core.num_control_points
@@ -76,22 +79,27 @@ class Table:
 
     @property
     def num_bytes(self) -> int:
-        """Memory of its arrays."""
+        """Memory of the arrays of the table, in bytes."""
         return self._core.num_bytes
 
     @property
     def info(self) -> dict[str, Any]:
-        """What it was made of: scheme, options, rows, level, grid, topology_hash, tool."""
+        """Description of the table, a dictionary.
+
+        Keys: ``scheme``; ``options`` of the scheme, with rules; ``rows``, the kind of points (``level``, ``limit``, ``grid`` or
+        ``samples``); ``level``; ``grid``; ``triangles``, whether faces of places are triangles; ``topology_hash`` of the control
+        mesh; ``tool`` that made it; ``rational``.
+        """
         return self._core.info
 
     @property
     def faces(self) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
-        """``(sizes, corners)`` of the faces that its points make; holes are left out."""
+        """Faces between the points of the table, ``(sizes, corners)``; holes are left out."""
         return self._core.faces()
 
     @property
     def refined_points(self) -> npt.NDArray[np.int64] | None:
-        """(vertices of `refine`,): the point of each vertex, -1 for vertices without faces.
+        """Point of the table for each vertex of `refine`, -1 for vertices without faces: (vertices of the level,).
 
         None unless the table was baked with ``order=True``; files do not store it.
 
@@ -108,17 +116,17 @@ class Table:
 
     @property
     def addresses(self) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64]] | None:
-        """Of grids and lists of places: ``(face, (u, v))`` of each point."""
+        """Place ``(face, (u, v))`` of each point, arrays (points,) and (points, 2); None for tables of levels."""
         return self._core.addresses()
 
     @property
     def status(self) -> npt.NDArray[np.uint8]:
-        """A number for each point; ``statuses[number]`` is the word. Empty: all are regular."""
+        """Status of each point, uint8, (points,); ``statuses[number]`` is its name. Empty if all points are regular."""
         return self._core.statuses
 
     @property
     def statuses(self) -> list[str]:
-        """The words of `status`."""
+        """Names of the numbers in `status`."""
         return self._core.status_words
 
     def _shape(self, channels: int) -> tuple[int, ...]:
@@ -127,35 +135,39 @@ class Table:
 
     def apply(self, points: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *, weights: npt.ArrayLike | None = None,
               threads: int = 0, device: str = "cpu") -> npt.NDArray[Any]:
-        """The table times control points; of a rational one divided by the weight.
+        """Makes the points of one frame or of several from their control points.
+
+        A rational table divides by the weight, which is left out of the result.
 
         Parameters
         ----------
-        points : (control points, channels) or (frames, control points, channels)
-            Used where they are if they are of the table's `dtype` and rows follow each other, else copied first. Of a
-            rational table, without `weights`, (.., control points, 4): columns (w x, w y, w z, w), as `Patches.points` has
-            them
-        weights : (control points,) or (frames, control points), of a rational table: `points` are points then, or other
-            values of any number of channels
-        out : array for the result, of the shape below and the table's `dtype`, optional
-        device : ``"cpu"``, ``"gpu"`` (the first one) or ``"gpu:1"``, see `gpu_devices`
-            GPUs apply tables in float, and make the same points to rounding. The table is copied to a GPU when it is
-            first applied there, and stays as long as it lives. Several frames at once take less time than each by
-            itself.
+        points : (control points, channels) or (frames, control points, channels), 1 to 64 channels
+            C-contiguous arrays of the table's `dtype` are used in place, others are copied first. For a rational table
+            without `weights` there are 4 channels, (w x, w y, w z, w), as in `Patches.points`.
+        out : C-contiguous array for the result, of the shape below and the table's `dtype` (default: a new array)
+        weights : (control points,) or (frames, control points), for rational tables: the weights of `points`, which are then
+            positions, or other values in any number of channels
+        threads : largest number of threads on the CPU (default: all)
+        device : ``"cpu"`` (default), ``"gpu"`` for the first GPU, or ``"gpu:1"``, see `gpu_devices`
+            GPUs apply float tables, with the same results up to rounding. The table is copied to a GPU when it is first applied
+            there, and stays there as long as it exists. Several frames in one call take less time than in several calls.
 
         Returns
         -------
-        (points, channels); of tables with derivatives (quantities, points, channels); with frames a first axis for them
+        (points, channels), or (quantities, points, channels) for tables with derivatives
+            For several frames with one more axis at the front.
 
         Raises
         ------
         InvalidParameter
-            Arrays of another shape or type; numbers too large for the table's `dtype`; an `out` that shares memory with
+            An array of another shape or type; numbers too large for the table's `dtype`; an `out` that shares memory with
             `points`.
         InvalidOption
-            A GPU and no such one here, with what is missing; a GPU and a table in double. The CPU never takes over.
-        ResourceError, IoError
-            No memory left on the GPU; it was lost.
+            There is no such GPU: the message says what is missing; or a double table and a GPU. The CPU is not used instead.
+        ResourceError
+            No memory left on the GPU.
+        IoError
+            The GPU is lost.
         """
         gpu = number_of(device)
         given = self._input(self._homogeneous(points, weights), "points", self.num_control_points, "control points")
@@ -171,7 +183,13 @@ class Table:
         return out
 
     def _homogeneous(self, points: npt.ArrayLike, weights: npt.ArrayLike | None) -> npt.ArrayLike:
-        """What a rational table takes: columns with their weight."""
+        """Returns points as the compiled part takes them: with weights, multiplied by them and with the weight as a last column.
+
+        Raises
+        ------
+        InvalidParameter
+            Arrays of another shape or type; weights for a table that is not rational.
+        """
         if weights is None:
             if not self.rational:
                 return points
@@ -195,18 +213,26 @@ class Table:
 
     def apply_transpose(self, values: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *,
                         threads: int = 0, device: str = "cpu") -> npt.NDArray[Any]:
-        """The transposed table times values: gradients with regard to control points.
+        """Applies the transpose of the table: makes gradients with respect to control points from gradients with respect to
+        points.
 
         Parameters
         ----------
-        values : as `apply` makes them, of one frame; or of positions alone, (points, channels). Of a rational table, before
-            anything is divided: values for each homogeneous column, as `matrix` makes them
-        out : array for the result, optional
-        device : as for `apply`
+        values : (points, channels), gradients with respect to the positions, of one frame; for tables with derivatives also
+            (quantities, points, channels), or the first quantities alone
+            For a rational table they are gradients with respect to the homogeneous points that `matrix` makes, which are not
+            divided.
+        out : C-contiguous array for the result, of the shape below and the table's `dtype` (default: a new array)
+        threads, device : as for `apply`
 
         Returns
         -------
         (control points, channels)
+
+        Raises
+        ------
+        InvalidParameter, InvalidOption, ResourceError, IoError
+            As `apply`.
         """
         gpu = number_of(device)
         given = arrays.any_array(values, "values")
@@ -231,7 +257,7 @@ class Table:
             raise InvalidParameter(f"{name} has dtype {array.dtype}; real numbers are right")
         if array.ndim not in (2, 3) or array.shape[-2] != count or array.shape[-1] < 1:
             raise InvalidParameter(f"{name} has shape {array.shape}; ({count} {what}, channels) is right, or a first axis before it")
-        with np.errstate(over="ignore"):  # told below, with its place
+        with np.errstate(over="ignore"):  # reported below, with its place
             taken = np.ascontiguousarray(array, dtype=self.dtype)
         if array.dtype.itemsize > taken.dtype.itemsize and not np.isfinite(taken).all():
             lost = np.argwhere(np.isfinite(array) & ~np.isfinite(taken))
@@ -248,17 +274,22 @@ class Table:
             raise InvalidParameter(f"out has shape {out.shape}; {shape} is right")
         if not out.flags.c_contiguous or not out.flags.writeable:
             raise InvalidParameter("out is read-only or its rows do not follow each other; np.empty(shape, dtype) is right")
-        if np.may_share_memory(out, given) and np.shares_memory(out, given):  # the first is quick
+        if np.may_share_memory(out, given) and np.shares_memory(out, given):  # the first test is fast, but may be wrong
             raise InvalidParameter(f"out shares memory with {name}, which is read while out is written")
 
     def matrix(self) -> csr_array:
-        """(quantities x points, control points): all positions first, then all du, ... Of a rational table it makes homogeneous
-        columns, and divides nothing.
+        """Returns the weights of the table as a sparse matrix.
+
+        Returns
+        -------
+        scipy.sparse.csr_array, (quantities x points, control points)
+            Rows of all positions come first, then those of all du, and so on. For a rational table it maps homogeneous control
+            points to homogeneous points, which are not divided.
         """
         return csr(self._core.matrix())
 
     def operator(self) -> LinearOperator:
-        """`matrix` for SciPy's solvers, applied by patterns: it is never made.
+        """Returns the linear operator of `matrix` for SciPy's solvers. It applies the table, and needs no memory for the matrix.
 
         Returns
         -------
@@ -269,7 +300,7 @@ class Table:
         def forward(x: npt.NDArray[Any]) -> npt.NDArray[Any]:
             columns = self._input(x.reshape(self.num_control_points, -1), "x", self.num_control_points, "control points")
             made = np.empty((self.quantities * self.num_points, columns.shape[1]), self.dtype)
-            for first in range(0, columns.shape[1], 64):  # as many channels as are applied at once
+            for first in range(0, columns.shape[1], 64):  # one call applies at most 64 channels
                 some = np.ascontiguousarray(columns[:, first:first + 64])
                 part = np.empty((1, len(made), some.shape[1]), self.dtype)
                 self._core.apply(some[None], part, 0, None, False)
@@ -284,8 +315,16 @@ class Table:
                               matvec=forward, rmatvec=backward, matmat=forward, rmatmat=backward)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file that `load`, the program and ``eval/`` read, in the layout of safetensors. It appears whole or not
-        at all.
+        """Writes the table to a file in the layout of safetensors, which `load`, the program and ``eval/`` read.
+
+        The file appears whole or not at all.
+
+        Raises
+        ------
+        IoError
+            The file cannot be written.
+        ResourceError
+            The disk is full.
         """
         self._core.save(os.fspath(path))
 
@@ -309,7 +348,7 @@ def _unpickled(data: bytes) -> Table:
         path = os.path.join(directory, "table.safetensors")
         with open(path, "wb") as file:
             file.write(data)
-        return load(path)  # mapped: the file may go
+        return load(path)  # a mapped file can be removed
 
 
 def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: bool = False, grid: int | None = None,
@@ -322,21 +361,25 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
 
     Parameters
     ----------
-    mesh : its faces and tags count, its points do not
-    levels : points of this level, 1 to 11; with `limit` from 0
-    limit : these moved to the limit
-    grid : N x N places on each face instead, sides included
-    at : places (face, u, v) instead, that broadcast to one shape; or (face, (u, v)), as `Table.addresses` has them
-    tessellation : the points of `LimitSurface.tessellate` instead; `Table.faces` are its triangles
-    derivatives : 0, 1 or 2, of the limit
-    precision : of the weights, ``"float"`` or ``"double"``
-    order : with levels, keep which vertex of `refine` each point is: `Table.refined_points`
+    mesh : the control mesh; its faces and tags matter, its points do not
+    scheme : name of a scheme, as in `schemes`, or a `Scheme`
+    levels : k for the vertices of level k, 1 to 11; 0 to 11 with `limit`
+    limit : with `levels`, limits of the vertices instead of their positions on the level (default: False)
+    grid : N for N x N places on each face, sides included, N from 2 to 2048
+    at : places (face, u, v) on the limit, arrays that broadcast to one shape; or (face, (u, v)), as `Table.addresses` returns
+    tessellation : a `Tessellation`, for its points; `Table.faces` returns its triangles
+    derivatives : number of derivatives of the limit: 0, 1 (du, dv) or 2 (duu, duv, dvv too); not with `levels` alone
+        (default: 0)
+    precision : of the weights, ``"float"`` or ``"double"`` (default: ``"float"``)
+    order : with `levels`, keep which vertex of `refine` each point is: `Table.refined_points` (default: False)
 
     Raises
     ------
     InvalidParameter
-        None of levels, grid, at and tessellation, or several of them; no places. Numbers
-        outside their range, derivatives of levels, places on no face.
+        None of levels, grid, at and tessellation, or several; no places, places on no face, derivatives of levels, numbers
+        outside their range.
+    InvalidOption
+        Another word for `precision`, or an unknown scheme, option or word.
     UnsupportedTopology, ResourceError
         As `refine`.
 
@@ -364,11 +407,19 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
 
 def bake_options(levels: int | None, limit: bool, grid: int | None, at: tuple[npt.ArrayLike, ...] | None, derivatives: int,
                  precision: str, choices: str) -> _sublimit.BakeOptions:
-    """Options of tables, for the compiled part.
+    """Returns options of `bake` for the compiled part.
 
     Parameters
     ----------
-    choices : what a table may be of, for errors
+    levels, limit, grid, at, derivatives, precision : as in `bake`
+    choices : names of the arguments of which one must be given, for messages
+
+    Raises
+    ------
+    InvalidParameter
+        None of levels, grid and at, or several; no places, numbers outside their range.
+    InvalidOption
+        Another word for `precision`.
     """
     if precision not in ("float", "double"):
         raise InvalidOption(f"precision is {precision!r}; 'float' or 'double' are right")
@@ -391,17 +442,18 @@ def bake_options(levels: int | None, limit: bool, grid: int | None, at: tuple[np
 
 
 def load(path: str | os.PathLike[str], *, checksums: bool = False) -> Table:
-    """A table from a file, mapped into memory: pages are read when they are first used.
+    """Loads a table by mapping its file into memory: pages are read when they are first used.
 
     Parameters
     ----------
-    checksums : compare them, which reads all of the file
+    path : path of the file
+    checksums : compare the checksums of all arrays too, which reads all of the file (default: False)
 
     Raises
     ------
     FormatError
-        No table, or a broken one.
+        The file is not a table, or is damaged; the message says what is wrong with it.
     IoError
-        Missing, unreadable.
+        The file is missing or unreadable.
     """
     return Table._of(_sublimit.load(os.fspath(path), checksums))
