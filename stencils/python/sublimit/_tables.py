@@ -87,8 +87,8 @@ class Table:
         """Description of the table, a dictionary.
 
         Keys: ``scheme``; ``options`` of the scheme, with rules; ``rows``, the kind of points (``level``, ``limit``, ``grid`` or
-        ``samples``); ``level``; ``grid``; ``triangles``, whether faces of places are triangles; ``topology_hash`` of the control
-        mesh; ``tool`` that made it; ``rational``.
+        ``samples``); ``level``; ``grid``; ``triangles``, True if faces of places are triangles; ``topology_hash`` of the
+        control mesh; ``tool``, the program that made the table; ``rational``.
         """
         return self._core.info
 
@@ -183,7 +183,7 @@ class Table:
         return out
 
     def _homogeneous(self, points: npt.ArrayLike, weights: npt.ArrayLike | None) -> npt.ArrayLike:
-        """Returns points as the compiled part takes them: with weights, multiplied by them and with the weight as a last column.
+        """Returns points as the compiled part takes them: if weights are given, homogeneous with the weight as last column.
 
         Raises
         ------
@@ -213,8 +213,7 @@ class Table:
 
     def apply_transpose(self, values: npt.ArrayLike, out: npt.NDArray[Any] | None = None, *,
                         threads: int = 0, device: str = "cpu") -> npt.NDArray[Any]:
-        """Applies the transpose of the table: makes gradients with respect to control points from gradients with respect to
-        points.
+        """Applies the transpose of the table: makes gradients by control points from gradients by the points of the table.
 
         Parameters
         ----------
@@ -274,7 +273,7 @@ class Table:
             raise InvalidParameter(f"out has shape {out.shape}; {shape} is right")
         if not out.flags.c_contiguous or not out.flags.writeable:
             raise InvalidParameter("out is read-only or its rows do not follow each other; np.empty(shape, dtype) is right")
-        if np.may_share_memory(out, given) and np.shares_memory(out, given):  # the first test is fast, but may be wrong
+        if np.may_share_memory(out, given) and np.shares_memory(out, given):  # the first test is fast and misses no overlap
             raise InvalidParameter(f"out shares memory with {name}, which is read while out is written")
 
     def matrix(self) -> csr_array:
@@ -289,7 +288,7 @@ class Table:
         return csr(self._core.matrix())
 
     def operator(self) -> LinearOperator:
-        """Returns the linear operator of `matrix` for SciPy's solvers. It applies the table, and needs no memory for the matrix.
+        """Returns `matrix` as a linear operator for SciPy's solvers, which applies the table instead of making the matrix.
 
         Returns
         -------
@@ -348,7 +347,7 @@ def _unpickled(data: bytes) -> Table:
         path = os.path.join(directory, "table.safetensors")
         with open(path, "wb") as file:
             file.write(data)
-        return load(path)  # a mapped file can be removed
+        return load(path)  # the file is mapped, so it may be removed
 
 
 def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: bool = False, grid: int | None = None,
@@ -357,8 +356,10 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
          boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
          option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
          strict: bool = False, threads: int = 0) -> Table:
-    """A table of a level, of its limit, of grids or of places on the limit.
+    """Bakes a table: weights over the control points for a connectivity and its tags. Positions do not matter.
 
+    Give one of `levels`, `grid`, `at` and `tessellation`, which select the points. Boundary, creasing and the other keyword
+    arguments that are not listed are those of `refine`.
     Parameters
     ----------
     mesh : the control mesh; its faces and tags matter, its points do not

@@ -32,23 +32,24 @@ __all__ = ["apply", "evaluate"]
 
 
 def apply(table: Table, points: torch.Tensor) -> torch.Tensor:
-    """The table times control points, differentiable any number of times.
+    """Makes the points of a table from control points, differentiable any number of times.
 
     Parameters
     ----------
-    points : (..., control points, channels), on the CPU
-        Axes before the last two are frames, or batches of frames. Read where they are if they are of the table's dtype and
-        rows follow each other.
+    table : a `Table` that is not rational
+    points : tensor (..., control points, channels), on the CPU
+        Axes before the last two are frames, or batches of frames. Contiguous tensors of the table's dtype are read in place,
+        others are copied first.
 
     Returns
     -------
-    Tensor, (..., points, channels); of tables with derivatives (..., quantities, points, channels)
-        Of the dtype of `points`; its gradient is that of `Table.apply_transpose`.
+    Tensor, (..., points, channels), or (..., quantities, points, channels) for tables with derivatives
+        It has the dtype of `points`. `Table.apply_transpose` computes its gradient.
 
     Raises
     ------
     InvalidParameter
-        A tensor that is not on the CPU, or of another shape; a rational table, whose points are quotients.
+        A tensor that is not on the CPU, or has another shape; a rational table, which is not linear in its control points.
     """
     _check_on_cpu(points, "points")
     if table.rational:
@@ -60,32 +61,35 @@ def apply(table: Table, points: torch.Tensor) -> torch.Tensor:
 
 def evaluate(surface: Source, face: Any, u: torch.Tensor | float, v: torch.Tensor | float,
              points: torch.Tensor | None = None) -> torch.Tensor:
-    """Points of a surface at places, differentiable with regard to u, v and the control points.
+    """Evaluates places of a surface, differentiable with respect to u, v and the control points.
 
     Parameters
     ----------
     surface : a `LimitSurface` or `Patches`
-    face : whole numbers, an array or a tensor
-    u, v : tensors or numbers that broadcast with `face` to one shape, on the CPU
-    points : (..., control points, channels), on the CPU: other control points, or other values of them, optional
-        Axes before the last two are frames, or batches of frames. Without, those of the surface.
+    face : integers, an array or a tensor on the CPU
+    u, v : tensors on the CPU or numbers; they broadcast with `face` to one shape
+    points : tensor (..., control points, channels), on the CPU: control points, or other values of these in any number of
+        channels (default: the control points of the surface)
+        Axes before the last two are frames, or batches of frames.
 
     Returns
     -------
     Tensor, (..., *shape of the places, channels)
-        Of the dtype of `points`, without these of that of u and v. Its gradients are exact: the derivatives along u and v,
+        It has the dtype of `points`, or that of u and v if `points` is absent. Gradients are exact: derivatives along u and v,
         and the transpose of the stencils. u and v may be differentiated twice.
 
     Raises
     ------
     InvalidParameter
-        A face that there is not, parameters outside of it or not finite. A tensor that is not on the
-        CPU, or of another shape; points of patches that are rational.
+        A face that does not exist, parameters outside of it or not finite; a tensor that is not on the CPU, or has another
+        shape; `points` for rational patches.
+    TypeError
+        `surface` is neither a `LimitSurface` nor `Patches`.
 
     Notes
     -----
-    A derivative that does not exist is zero, as in `Samples`: at extraordinary vertices `Samples.order` says so. Places stay on
-    their face: what moves them has to keep u and v inside of it.
+    Derivatives that do not exist are zero, as in `Samples`, where `Samples.order` says which exist at a place. Places stay on
+    their faces: a caller that moves them has to keep u and v inside the face.
     """
     surface = surface_of(surface, Source)
     at = [_real(value, name) for value, name in ((u, "u"), (v, "v"))]
@@ -153,7 +157,8 @@ class _Transposed(torch.autograd.Function):  # type: ignore[misc]
         return _Apply.apply(gradient, ctx.table), None
 
 
-#: Position; du, dv; duu, duv, dvv: of each how many derivatives are needed, and which of them its own derivatives are.
+#: Quantities: position, first and second derivatives. _ORDER: number of derivatives that `evaluate` needs for each.
+#: _DERIVATIVES: for the position, du and dv the numbers of their derivatives along u and along v.
 _PARTS = ("points", "du", "dv", "duu", "duv", "dvv")
 _ORDER = (0, 1, 1, 2, 2, 2)
 _DERIVATIVES = ((1, 2), (3, 4), (4, 5))
@@ -169,7 +174,7 @@ def _numbers(values: torch.Tensor) -> npt.NDArray[np.float64]:
 
 
 def _times(matrix: Any, frames: torch.Tensor) -> torch.Tensor:
-    """(rows, columns) times (frames, columns, channels), in double."""
+    """Returns a matrix (rows, columns) times frames (frames, columns, channels): (frames, rows, channels), in float64."""
     given = _numbers(frames)
     count, _, channels = given.shape
     made = matrix @ given.transpose(1, 0, 2).reshape(matrix.shape[1], count * channels)
@@ -178,7 +183,12 @@ def _times(matrix: Any, frames: torch.Tensor) -> torch.Tensor:
 
 def _along(gradient: torch.Tensor, u: torch.Tensor, v: torch.Tensor, points: torch.Tensor | None, ctx: Any,
            needed: tuple[bool, bool]) -> list[torch.Tensor | None]:
-    """Gradients with regard to u and v: the gradient times the derivatives, summed over channels and frames."""
+    """Returns the gradients with respect to u and v: the gradient times the derivatives, summed over channels and frames.
+
+    Parameters
+    ----------
+    needed : compute the gradient with respect to u, to v; None is returned for one that is not needed
+    """
     if any(needed) and ctx.part >= len(_DERIVATIVES):
         raise RuntimeError("a surface has two derivatives along u and v; there is no third one")
     made: list[torch.Tensor | None] = [None, None]
@@ -191,8 +201,11 @@ def _along(gradient: torch.Tensor, u: torch.Tensor, v: torch.Tensor, points: tor
 
 
 class _Evaluate(torch.autograd.Function):  # type: ignore[misc]
-    """(places,), (places,) and, unless they are the surface's, (frames, control points, channels) to (places, 3), or (frames,
-    places, channels)."""
+    """Evaluation of a quantity at places as a function of PyTorch.
+
+    Maps u (places,), v (places,) and control points (frames, control points, channels) to (frames, places, channels). If the
+    control points are None, those of the surface are taken, and the result is (places, 3).
+    """
 
     @staticmethod
     def forward(ctx: Any, u: torch.Tensor, v: torch.Tensor, points: torch.Tensor | None, surface: Source,
@@ -217,7 +230,10 @@ class _Evaluate(torch.autograd.Function):  # type: ignore[misc]
 
 
 class _Spread(torch.autograd.Function):  # type: ignore[misc]
-    """The transpose of `_Evaluate` with regard to its points: (frames, places, channels) to (frames, control points, channels)."""
+    """The transpose of `_Evaluate` with respect to its control points, as a function of PyTorch.
+
+    Maps (frames, places, channels) to (frames, control points, channels).
+    """
 
     @staticmethod
     def forward(ctx: Any, values: torch.Tensor, u: torch.Tensor, v: torch.Tensor, surface: Source, face: npt.NDArray[Any],
