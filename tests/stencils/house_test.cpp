@@ -110,7 +110,8 @@ TEST(House, FoldersKnowThoseBelowThem) {
       }
     }
   EXPECT_GT(below.size(), 40u);
-  // Takes away what knows nobody who is left, again and again: what stays is part of a circle, or above one.
+  // Removes folders until none of those left satisfies `is_free`. Without the folders that include no other one, and
+  // then without those that no other one includes, only circles and the ways between them are left.
   const auto take_away = [&](const auto& is_free) {
     for (bool taken = true; taken;) {
       taken = false;

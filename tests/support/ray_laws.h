@@ -171,7 +171,7 @@ class RayLaws : public ::testing::TestWithParam<std::string> {
   int given_up_ = 0;  ///< rays given up on pieces without polynomials, which the README allows
 };
 
-/// Of so many rays through marked places one may be given up.
+/// Number of rays through marked places of which at most one may be given up.
 constexpr int rays_to_one_given_up = 20;
 
 inline std::vector<std::string> names_of_schemes() {

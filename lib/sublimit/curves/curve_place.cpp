@@ -34,7 +34,7 @@ void CurveSamples::set_normal(Index row, double noise) {
   if (length > 16 * std::numeric_limits<double>::epsilon() * bend.stableNorm()) normal.row(row) = across / length;
 }
 
-void check_sample(const CurvePlace& place, Index segments, std::int64_t row) {
+void check_place(const CurvePlace& place, Index segments, std::int64_t row) {
   const std::string where = row < 0 ? "" : "sample " + format_number(row) + ": ";
   if (place.segment < 0 || place.segment >= segments)
     throw InvalidParameter(where + "segment " + format_number(place.segment) +

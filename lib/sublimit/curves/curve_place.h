@@ -42,6 +42,6 @@ struct [[nodiscard]] CurveSamples {
 /// Throws unless a place is on one of `segments` segments.
 /// @param row  number of the place in a list, for the message; -1: none
 /// @throws InvalidParameter  a segment that does not exist, t outside [0, 1] or not finite
-void check_sample(const CurvePlace& place, Index segments, std::int64_t row = -1);
+void check_place(const CurvePlace& place, Index segments, std::int64_t row = -1);
 
 }  // namespace sublimit

@@ -181,7 +181,7 @@ Index LimitCurve::first_segment(Index curve) const {
 }
 
 double LimitCurve::parameter(const CurvePlace& place) const {
-  check_sample(place, num_segments());
+  check_place(place, num_segments());
   const Index curve = parts_->curve_of(place.segment);
   const CurveOutline& outline = parts_->curves[curve];
   const auto [from, length] = parts_->ends(outline, place.segment - parts_->first_segment[curve]);
@@ -189,7 +189,7 @@ double LimitCurve::parameter(const CurvePlace& place) const {
 }
 
 CurveStencil LimitCurve::stencil(const CurvePlace& place, int order) const {
-  check_sample(place, num_segments());
+  check_place(place, num_segments());
   check_order(order);
   PieceOfCurve piece = parts_->place(place);
   CurvePieceRows rows;
@@ -216,7 +216,7 @@ CurveSamples LimitCurve::evaluate(const Points& unknowns, std::span<const CurveP
     throw InvalidParameter("there are " + std::to_string(unknowns.rows()) + " rows of points; the curves have " +
                            std::to_string(num_unknowns()) + (parts_->unknowns() > 1 ? ", derivatives included" : ""));
   const auto count = static_cast<std::int64_t>(samples.size());
-  for (std::int64_t i = 0; i < count; ++i) check_sample(samples[i], num_segments(), i);
+  for (std::int64_t i = 0; i < count; ++i) check_place(samples[i], num_segments(), i);
   const Eigen::Index dimension = unknowns.cols();
   CurveSamples result(count, dimension, order);
   parallel_for_blocks(
@@ -275,7 +275,7 @@ CurveSamples evaluate(const GeometricCurveScheme& scheme, const ControlPolygon& 
                               i + 1 < count || closed ? &all[(i + 1) % count] : nullptr});
   }
   const auto count = static_cast<std::int64_t>(samples.size());
-  for (std::int64_t i = 0; i < count; ++i) check_sample(samples[i], static_cast<Index>(all_segments.size()), i);
+  for (std::int64_t i = 0; i < count; ++i) check_place(samples[i], static_cast<Index>(all_segments.size()), i);
   const double size = (data.points.colwise().maxCoeff() - data.points.colwise().minCoeff()).norm();
   CurveSamples result(count, data.dimension(), order);
   parallel_for_blocks(

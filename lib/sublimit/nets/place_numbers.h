@@ -44,7 +44,7 @@ class PlaceNumbers {
   };
   Index add(const Key& key) { return numbers_.try_emplace(key, size()).first->second; }
   Key key(Index address, const CellCorner& c) const {
-    if (const std::int64_t number = shared_.number(address, c.i, c.j); number != SharedPlaces::nobody)
+    if (const std::int64_t number = shared_.number(address, c.i, c.j); number != SharedPlaces::not_shared)
       return {-1, number};
     return {address, std::int64_t{c.i} << 32 | c.j};
   }

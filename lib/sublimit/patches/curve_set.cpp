@@ -24,7 +24,7 @@ CurveSet::CurveSet(std::vector<std::shared_ptr<const LinearCurve>> curves) : cur
 }
 
 CurveStencil CurveSet::stencil(const CurvePlace& place, int order) const {
-  check_sample(place, num_segments());
+  check_place(place, num_segments());
   const auto curve =
       size_t(std::upper_bound(first_segment_.begin(), first_segment_.end(), place.segment) - first_segment_.begin()) -
       1;

@@ -29,7 +29,7 @@ inline constexpr int max_degree = 25;
 // Checks of knots, shared by all number types. Errors name the knot and the control point, with the counts that would
 // be right; numbers are reported as the nearest double.
 
-/// What is wrong with a knot.
+/// Faults of a knot.
 enum class KnotFault {
   not_finite,
   falling,         ///< less than the knot before

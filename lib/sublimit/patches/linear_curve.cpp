@@ -15,7 +15,7 @@ CurveSamples CurveSource::evaluate(const Points& columns, std::span<const CurveP
   if (columns.rows() != num_points() || dimension < 1)
     throw InvalidParameter("columns are " + format_number(columns.rows()) + " x " + format_number(columns.cols()) +
                            "; one row is needed for each of " + format_number(num_points()) + " control points");
-  for (size_t i = 0; i < samples.size(); ++i) check_sample(samples[i], num_segments(), static_cast<std::int64_t>(i));
+  for (size_t i = 0; i < samples.size(); ++i) check_place(samples[i], num_segments(), static_cast<std::int64_t>(i));
   CurveSamples out(std::ssize(samples), dimension, order);
   const auto fill = [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {

@@ -13,7 +13,7 @@ CurvePlace SplineCurve::place(double t, KnotSide side) const {
 
 CurveStencil SplineCurve::stencil(const CurvePlace& place, int order) const {
   check_order(order);
-  check_sample(place, num_segments());
+  check_place(place, num_segments());
   PointRows rows = point_rows(knots_, {place.segment, place.t}, order);
   return {.status = rows.sides_differ ? LimitStatus::crease : LimitStatus::regular,
           .unknowns = std::move(rows.points),

@@ -21,7 +21,7 @@ CurvePlace LagrangeCurve::place(double t, KnotSide) const {
 
 CurveStencil LagrangeCurve::stencil(const CurvePlace& place, int order) const {
   check_order(order);
-  check_sample(place, 1);
+  check_place(place, 1);
   CurveStencil result{.status = LimitStatus::regular, .unknowns = {}, .weights = basis_.rows(place.t, order)};
   result.unknowns.resize(static_cast<size_t>(num_points()));
   std::iota(result.unknowns.begin(), result.unknowns.end(), 0);

@@ -15,7 +15,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> shared_grid_places(const Topo
     for (int j = 0; j < N; ++j)
       for (int i = 0; i < (addresses.triangles() ? N - j : N); ++i, ++row) {
         const std::int64_t number = shared.number(a, i, j);
-        if (number == SharedPlaces::nobody) continue;
+        if (number == SharedPlaces::not_shared) continue;
         std::int64_t& first = owner[size_t(number)];
         if (first < 0)
           first = row;

@@ -24,7 +24,7 @@ std::int64_t SharedPlaces::on_edge(HalfEdge h, std::int64_t from_tail) const {
   if (from_tail == 0) return at_tail(h);
   if (from_tail == 2 * steps_) return at_tail(t_.next(h));
   if (dual_ && !exists(t_.twin(h)))  // two squares of one polygon share its middle
-    return from_tail == steps_ ? first_apart() + t_.num_half_edges() + index(h) : nobody;
+    return from_tail == steps_ ? first_apart() + t_.num_half_edges() + index(h) : not_shared;
   return t_.num_vertices() + index(t_.edge(h)) * (2 * steps_ - 1) +
          (t_.forward(h) ? from_tail : 2 * steps_ - from_tail) - 1;
 }
@@ -37,7 +37,7 @@ std::int64_t SharedPlaces::on_spoke(HalfEdge h, std::int64_t k) const {
 
 std::int64_t SharedPlaces::number(Index address, std::int64_t i, std::int64_t j) const {
   const bool triangle = addresses_.triangles();
-  if (i > 0 && j > 0 && (triangle ? i + j < steps_ : i < steps_ && j < steps_)) return nobody;
+  if (i > 0 && j > 0 && (triangle ? i + j < steps_ : i < steps_ && j < steps_)) return not_shared;
   const Addresses::FaceCorner at = addresses_.place(address);
   if (at.corner >= 0) {
     const HalfEdge h = t_.corner(at.face, at.corner), before = t_.prev(h);
@@ -45,14 +45,14 @@ std::int64_t SharedPlaces::number(Index address, std::int64_t i, std::int64_t j)
     if (i == 0) return on_edge(before, 2 * steps_ - j);
     if (i == steps_) return on_spoke(h, j);
     if (j == steps_) return on_spoke(before, i);
-    return nobody;
+    return not_shared;
   }
   const HalfEdge h = t_.first(at.face);
   if (j == 0) return on_edge(h, 2 * i);
   if (triangle ? i + j == steps_ : i == steps_) return on_edge(t_.next(h), 2 * j);
   if (!triangle && j == steps_) return on_edge(t_.next(t_.next(h)), 2 * (steps_ - i));
   if (i == 0) return on_edge(t_.prev(h), 2 * (steps_ - j));
-  return nobody;
+  return not_shared;
 }
 
 }  // namespace sublimit

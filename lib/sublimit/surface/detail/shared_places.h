@@ -12,7 +12,7 @@ namespace sublimit {
 class SharedPlaces {
  public:
   /// The result of `number` for a place that no other address has.
-  static constexpr std::int64_t nobody = -1;
+  static constexpr std::int64_t not_shared = -1;
 
   /// @param topology, addresses  must outlive this
   /// @param steps  number of steps along each side of an address
@@ -25,7 +25,7 @@ class SharedPlaces {
 
   /// Returns the number of a place; places with equal numbers are the same point.
   /// @param i, j  steps along u and v
-  /// @return  `nobody` for a place inside, or on a side of this address alone
+  /// @return  -1, the constant `not_shared`, if no other address shares the place
   std::int64_t number(Index address, std::int64_t i, std::int64_t j) const;
   /// Returns an upper bound of all numbers.
   std::int64_t size() const;
