@@ -6,7 +6,6 @@
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/primvar/linear_scheme.h"
-#include "sublimit/primvar/varying.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/face_varying_meshes.h"
@@ -134,7 +133,7 @@ TEST(FaceVarying, IsTheMeshOfItsValues) {
   }
 }
 
-TEST(FaceVarying, AllIsVaryingWithoutSeams) {
+TEST(FaceVarying, AllIsLinearWithoutSeams) {
   for (const Scheme<double>& scheme : schemes()) {
     if (!keeps_edges(scheme)) continue;
     for (const Mesh& plain : plain_meshes(scheme)) {
@@ -143,7 +142,7 @@ TEST(FaceVarying, AllIsVaryingWithoutSeams) {
       const std::vector<Level> levels = refine(scheme, mesh, 2);
       const auto channel = refine_face_varying(scheme, all, mesh.face_varying[0], levels);
       const Points values = values_of_last(channel, mesh),
-                   points = apply(varying_matrix(scheme, levels), mesh.positions);
+                   points = apply(refinement_matrix(refine(linear_scheme(scheme), mesh, 2)), mesh.positions);
       for (Index p = 0; p < values.rows(); ++p)
         EXPECT_LE((values.row(p) - points.row(channel[2].vertices[p])).norm(), rounding(40, size(mesh)));
     }

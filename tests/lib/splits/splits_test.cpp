@@ -3,6 +3,10 @@
 // quads of the split that only Kobbelt's option quads=edges uses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <span>
+
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/scheme/refine.h"
@@ -116,6 +120,36 @@ TEST(Splits, PrimalFansStartWhereThoseOfTheSameFacesReadAgainDo) {
         t = std::move(child);
       }
     }
+}
+
+/// The control face that each face of the last level descends from.
+std::vector<Index> control_faces(std::span<const Level> levels) {
+  std::vector<Index> faces(levels[0].topology().num_faces());
+  std::iota(faces.begin(), faces.end(), 0);
+  for (const Level& level : levels.subspan(1))
+    for (const Refinement& step : level.steps) {
+      EXPECT_EQ(std::ssize(step.face_parent), step.topology.num_faces());
+      std::vector<Index> children;
+      for (const Index parent : step.face_parent) children.push_back(faces.at(size_t(parent)));
+      faces = std::move(children);
+    }
+  return faces;
+}
+
+TEST(Splits, AFaceHasFourQuadsForEachCornerAfterTwo) {
+  const Mesh mesh = polygon_ring({5, 4, 3, 6, 4});
+  std::vector<Index> children(mesh.num_faces(), 0);
+  for (const Index f : control_faces(refine(*find_scheme("catmull-clark"), mesh, 2))) ++children[f];
+  for (Index f = 0; f < mesh.num_faces(); ++f) EXPECT_EQ(children[f], 4 * mesh.face_sizes[f]);
+}
+
+TEST(Splits, EveryFaceHasDescendants) {
+  for (const Scheme<double>& scheme : all_schemes()) {
+    const Mesh mesh = scheme.face_size() == 3 ? icosahedron() : cube();
+    const std::vector<Index> faces = control_faces(refine(scheme, mesh, 2));
+    for (Index f = 0; f < mesh.num_faces(); ++f)
+      EXPECT_TRUE(std::find(faces.begin(), faces.end(), f) != faces.end()) << scheme.name;
+  }
 }
 
 // A quad for each edge (a, b): a, the right face's point, b, the left face's; a border has its midpoint for the face
