@@ -66,8 +66,9 @@ class Site:
                 if not (self.root / file).exists():
                     return label
             if picture:
-                (self.pages / file).parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(self.root / file, self.pages / file)
+                if (self.root / file).exists():
+                    (self.pages / file).parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copyfile(self.root / file, self.pages / file)
                 return match.group(0)
             if file.suffix == ".md":
                 inside = os.path.relpath(file, page.parent) + ("#" + section if section else "")
@@ -334,6 +335,24 @@ def check_undocumented(site: Site, found: dict[str, list[str]]) -> None:
                                f"number from {most}")
 
 
+def make_pictures(root: pathlib.Path, build: pathlib.Path, program: str) -> None:
+    """Makes the pictures of written pages, which these know as pictures/NAME.svg; the gallery is there already."""
+    pictures, data = build / "pictures", root / "stencils/gallery"
+    pictures.mkdir(exist_ok=True)
+
+    def run(*arguments: str | pathlib.Path) -> None:
+        subprocess.run([program, *map(str, arguments), "--quiet"], check=True, stdout=subprocess.DEVNULL)
+
+    shutil.copyfile(build / "gallery/overview.svg", pictures / "schemes.svg")
+    shutil.copyfile(build / "gallery/patches.svg", pictures / "patches.svg")
+    run("demo", build / "demo")
+    run("analyze", build / "demo/control.obj", "-s", "catmull-clark", "--picture", pictures / "smoothness.svg")
+    run("fit", data / "fit.obj", "--targets", data / "fit.csv", "-s", "catmull-clark", "-o", build / "fitted.obj",
+        "--picture", pictures / "fit.svg")
+    run("fit", data / "curvatures.obj", "--targets", data / "curvatures.csv", "-s", "torus-pieces", "-l", "3", "-o",
+        build / "curved.obj", "--picture", pictures / "curvatures.svg")
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description="Makes the site of the manual.")
     for name in ("source", "build", "program", "sphinx", "doxygen", "version"):
@@ -364,11 +383,14 @@ def main() -> int:
     reference, gallery = build / "reference", build / "gallery"
     run(told.program, "--generate", "markdown", str(reference))
     stamp = build / "computed"  # schemes take a minute: only where the program is newer
-    if not stamp.exists() or stamp.stat().st_mtime < os.stat(told.program).st_mtime:
+    is_new = stamp.exists() and (build / "pictures").exists() and stamp.stat().st_mtime >= os.stat(told.program).st_mtime
+    if not is_new:
         run(told.program, "schemes", "--gallery", str(gallery), "--gallery-faces", "600", "--quiet", stdout=subprocess.DEVNULL)
         run(told.program, "analyze", "-s", "all", "--valence", "3-7", "-o", str(build / "schemes.html"), "--json",
             str(build / "schemes.json"), "--quiet", stdout=subprocess.DEVNULL)
+        make_pictures(root, build, told.program)
         stamp.touch()
+    shutil.copytree(build / "pictures", site.pages / DOCS / "pictures")
     schemes = json.loads(run(told.program, "schemes", "--json", stdout=subprocess.PIPE))
     site.gather(reference)
     scheme_index = scheme_pages(site, schemes, json.loads((build / "schemes.json").read_text()), gallery)

@@ -38,7 +38,7 @@ constexpr NotRun not_run[] = {
     {R"(cmake (--workflow --preset package|--build build/package --target dist))",
      "builds: full.packages, packages.sources"},
     {R"(cmake --install build/release --component \S+)", "packages.components installs each of them"},
-    {R"(cmake --build --preset release --target gallery)", "remakes the pictures of the source tree"},
+    {R"(cmake --build --preset release --target gallery)", "remakes the picture of the first page"},
     {R"(python3 -m pip install \./stencils/python.*)", "python.pip installs it, beside nothing that a user has"},
     {R"(ctest --test-dir .* -L LABEL)", "the tests themselves"},
     {R"(build/\S+/bin/\w+_(bench|accuracy|scaling)( .*)?)", "a benchmark: minutes, on a machine of its own"},
