@@ -71,3 +71,14 @@ def markdown(results):
                 lines.append(text)
                 title = ""
     return "\n".join(lines) + "\n"
+
+
+def errors(results):
+    """Largest errors, ours and the peers'."""
+    lines = ["## Errors beside others", "", f"Largest errors ({results['machine']['cpu']}, {results['machine']['cores']} cores).", "",
+             "| what | mesh | of | unit | error |", "|---|---|---|---|---|"]
+    for row in results["rows"]:
+        if "error" in row["work"]:
+            lines += [f"| {row['work']} | {row['mesh'].replace('_', ' ')} | {t['name']} | {row['unit']} | {t['median']:.1e} |"
+                      for t in row["times"]]
+    return "\n".join(lines) + "\n"
