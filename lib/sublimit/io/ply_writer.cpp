@@ -3,11 +3,12 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
-#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/ply.h"
+#include "sublimit/io/detail/ply_header.h"
 #include "sublimit/io/detail/writer_parts.h"
 
 namespace sublimit {
@@ -34,19 +35,20 @@ char* extend(std::string& out, std::size_t bytes) {
 }
 
 std::string format_header(const Mesh& mesh, bool wide) {
-  std::string out = "ply\nformat binary_little_endian 1.0\n" + format_comments(mesh.comments, "comment ");
-  out += "element vertex " + format_number(mesh.positions.rows()) + "\n";
-  for (const char* const name : {"x", "y", "z"}) out += std::string("property double ") + name + "\n";
-  if (mesh.normals.rows() > 0) {
-    for (const char* const name : {"nx", "ny", "nz"}) out += std::string("property double ") + name + "\n";
-  }
-  if (mesh.texture.rows() > 0) out += "property double s\nproperty double t\n";
+  PlyElement vertex{.name = "vertex", .count = mesh.positions.rows(), .properties = {}};
+  PlyElement face{.name = "face", .count = std::ssize(mesh.face_sizes), .properties = {}};
+  const auto add_double = [&](const char* name) { vertex.properties.push_back({name, PlyType::float64, {}}); };
+  for (const char* const name : {"x", "y", "z"}) add_double(name);
+  if (mesh.normals.rows() > 0)
+    for (const char* const name : {"nx", "ny", "nz"}) add_double(name);
+  if (mesh.texture.rows() > 0)
+    for (const char* const name : {"s", "t"}) add_double(name);
   for (const Mesh::VertexValues& further : mesh.vertex_values)
-    out += (further.whole ? "property int " : "property double ") + further.name + "\n";
-  out += "element face " + format_number(mesh.face_sizes.size()) + "\n";
-  out += wide ? "property list uint int vertex_indices\n" : "property list uchar int vertex_indices\n";
-  if (!mesh.face_ids.empty()) out += "property int face_id\n";
-  return out + "end_header\n";
+    vertex.properties.push_back({further.name, further.whole ? PlyType::int32 : PlyType::float64, {}});
+  face.properties.push_back({"vertex_indices", PlyType::int32, wide ? PlyType::uint32 : PlyType::uint8});
+  if (!mesh.face_ids.empty()) face.properties.push_back({"face_id", PlyType::int32, {}});
+  return format_ply_header({PlyHeader::Encoding::little_endian, {std::move(vertex), std::move(face)}},
+                           format_comments(mesh.comments, "comment "));
 }
 
 void emit_vertices(const Mesh& mesh, RowWriter& out) {

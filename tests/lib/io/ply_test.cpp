@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "sublimit/io/detail/ply_rows.h"
+#include "sublimit/io/detail/ply_values.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
 
@@ -239,6 +241,30 @@ TEST(Ply, CountsTakeNoMemoryThatTheFileCannotFill) {
             "a.ply");
       },
       {"a.ply:4: element 'vertex' has no number 'x'"});
+}
+
+TEST(Ply, RowsAreReadFromAnyByteOn) {
+  const Mesh mesh = parse_ply(square, "square.ply");
+  const std::string bytes = format_ply(mesh);
+  const PlyHeader read = parse_ply_header(bytes, "square.ply");
+  EXPECT_EQ(format_ply_header(read), bytes.substr(0, size_t(read.size)));
+  const PlyElement& vertex = require_element(read, "square.ply", "vertex", "x, y and z");
+  const PlyElement& face = require_element(read, "square.ply", "face", "vertex_indices");
+  EXPECT_EQ(row_size(vertex), 3 * 8);
+  EXPECT_EQ(row_size(face), std::nullopt);
+  PlyBinaryValues values(bytes, read, "square.ply");
+  const PlyVertices vertices(vertex, "square.ply", {});
+  double x[3];
+  for (const Index v : {2, 0, 3}) {
+    values.move_to(read.size + v * *row_size(vertex));
+    vertices.read(values, v, x);
+    for (Index k = 0; k < 3; ++k) EXPECT_EQ(x[k], mesh.positions(v, k));
+  }
+  std::vector<std::int64_t> corners;
+  EXPECT_EQ(values.offset(), read.size + 4 * 3 * 8);
+  EXPECT_EQ(PlyFaces(face, "square.ply", 4).read(values, 0, corners), 4);
+  EXPECT_EQ(corners, (std::vector<std::int64_t>{0, 1, 2, 3}));
+  EXPECT_EQ(values.offset(), std::ssize(bytes));
 }
 
 TEST(Ply, ReadsFiles) {

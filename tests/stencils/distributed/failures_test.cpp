@@ -89,6 +89,13 @@ TEST(RankFailures, MeshesThatAreNoneAreRefused) {
   std::string polygon(36, '\0');  // the first face has more corners than there are bytes, were all like it
   polygon += std::string("\x09") + std::string(36, '\0') + std::string(60, '\x03');
   refused("b.ply", header + polygon, {"b.ply"});
+  std::string far = std::string(36, '\0') + "\x03" + std::string(12, '\0');  // the second face has no such vertex
+  for (int face = 1; face < 9; ++face) far += "\x03" + std::string("\x04\0\0\0", 4) + std::string(8, '\0');
+  refused("b.ply", header + far, {"b.ply: byte ", "index 4 of face 1 is out of range", "0 to 2"});
+  const std::string turned =
+      "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex "
+      "3\nproperty uchar x\nproperty uchar y\nproperty uchar z\nend_header\n\x03";
+  refused("b.ply", turned + std::string(21, '\0'), {"b.ply", "faces are before the vertices"});
   refused("c.safetensors", "", {"c.safetensors"});
   refused("d.stl", "solid", {".safetensors"});
   // A rule of a scheme, met while baking.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/io/detail/ply_header.h"
 
+#include <algorithm>
 #include <unordered_set>
 #include <utility>
 
@@ -19,6 +20,9 @@ constexpr std::pair<std::string_view, PlyType> type_names[] = {
     {"float", PlyType::float32},   {"float32", PlyType::float32}, {"double", PlyType::float64},
     {"float64", PlyType::float64},
 };
+
+/// By encoding.
+constexpr std::string_view format_names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
 
 class HeaderParser {
  public:
@@ -60,15 +64,10 @@ class HeaderParser {
 
   void read_format() {
     const std::string_view name = scanner_.token();
-    if (name == "ascii") {
-      header_.encoding = PlyHeader::Encoding::text;
-    } else if (name == "binary_little_endian") {
-      header_.encoding = PlyHeader::Encoding::little_endian;
-    } else if (name == "binary_big_endian") {
-      header_.encoding = PlyHeader::Encoding::big_endian;
-    } else {
+    const auto found = std::ranges::find(format_names, name);
+    if (found == std::end(format_names))
       fail("unknown format " + in_quotes(name) + "; it should be ascii, binary_little_endian or binary_big_endian");
-    }
+    header_.encoding = static_cast<PlyHeader::Encoding>(found - format_names);
     if (const std::string_view version = scanner_.token(); version != "1.0") {
       fail("unknown version " + in_quotes(version) + "; 1.0 can be read");
     }
@@ -162,6 +161,30 @@ std::int64_t byte_size(PlyType type) {
 
 bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
+std::optional<std::int64_t> row_size(const PlyElement& element) {
+  std::int64_t size = 0;
+  for (const PlyProperty& property : element.properties) {
+    if (property.length) return std::nullopt;
+    size += byte_size(property.type);
+  }
+  return size;
+}
+
 PlyHeader parse_ply_header(std::string_view bytes, std::string_view name) { return HeaderParser(bytes, name).parse(); }
+
+std::string format_ply_header(const PlyHeader& header, const std::string& comments) {
+  const auto word = [](PlyType type) {
+    return std::string(std::ranges::find(type_names, type, &std::pair<std::string_view, PlyType>::second)->first) + " ";
+  };
+  std::string out = "ply\nformat " + std::string(format_names[static_cast<std::size_t>(header.encoding)]) + " 1.0\n";
+  out += comments;
+  for (const PlyElement& element : header.elements) {
+    out += "element " + element.name + " " + format_number(element.count) + "\n";
+    for (const PlyProperty& property : element.properties)
+      out += "property " + (property.length ? "list " + word(*property.length) : "") + word(property.type) +
+             property.name + "\n";
+  }
+  return out + "end_header\n";
+}
 
 }  // namespace sublimit

@@ -26,6 +26,9 @@ struct PlyElement {
   std::int64_t line = 0;
 };
 
+/// Returns the bytes of a row in binary data; absent if rows have lists.
+std::optional<std::int64_t> row_size(const PlyElement& element);
+
 struct PlyHeader {
   enum class Encoding { text, little_endian, big_endian };
   Encoding encoding = Encoding::text;
@@ -34,8 +37,12 @@ struct PlyHeader {
   std::int64_t lines = 0;  ///< lines of the header; data starts on the next line
 };
 
-/// Returns the header.
+/// Returns the header of a file.
 /// @throws FormatError  a malformed header, or counts too large for the bytes after it; names file:line
 PlyHeader parse_ply_header(std::string_view bytes, std::string_view name);
+
+/// Returns a header as the lines of a file.
+/// @param comments  lines of comments, each with its line end
+std::string format_ply_header(const PlyHeader& header, const std::string& comments = "");
 
 }  // namespace sublimit

@@ -72,6 +72,10 @@ class PlyBinaryValues {
         swapped_((header.encoding == PlyHeader::Encoding::big_endian) == (std::endian::native == std::endian::little)) {
   }
 
+  /// Returns the position in the file, and moves there: to the beginning of a row.
+  std::int64_t offset() const { return static_cast<std::int64_t>(here_); }
+  void move_to(std::int64_t offset) { here_ = static_cast<std::size_t>(offset); }
+
   void begin_row() {}
   void end_row() {}
   double real(PlyType type) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/distributed/mesh/points_file.h"
 
-#include <fmt/core.h>
-
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/ply_header.h"
 
 namespace sublimit {
 
@@ -15,12 +14,10 @@ void check_points_output(const std::filesystem::path& output) {
 }
 
 std::string ply_header(std::int64_t num_points, std::optional<std::int64_t> num_faces) {
-  std::string header = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double "
-      "z\n",
-      num_points);
-  if (num_faces) header += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", *num_faces);
-  return header + "end_header\n";
+  PlyHeader header{PlyHeader::Encoding::little_endian, {{.name = "vertex", .count = num_points, .properties = {}}}};
+  for (const char* const name : {"x", "y", "z"}) header.elements[0].properties.push_back({name, PlyType::float64, {}});
+  if (num_faces) header.elements.push_back({"face", *num_faces, {{"vertex_indices", PlyType::int32, PlyType::uint8}}});
+  return format_ply_header(header);
 }
 
 std::vector<PointRun> runs_of(std::span<const std::array<std::int64_t, 2>> items, std::int64_t isolated) {
