@@ -34,7 +34,7 @@ const Floor floors[] = {
      {"subdivide.h"},
      "schemes"},
     {"stencils/sublimit",
-     {"recipes", "files", "jobs", "patterns", "bake", "shards", "picture", "fit_jobs", "distributed", "gallery",
+     {"json", "recipes", "files", "jobs", "patterns", "bake", "shards", "picture", "fit_jobs", "distributed", "gallery",
       "report"},
      {"sublimit.h", "sublimit.cpp"},
      "report"},
@@ -139,7 +139,7 @@ bool is_own(const std::string& path) {
   static const std::regex own(
       "/detail/|^lib/sublimit/(cad|curves/schemes|geometric|implicit/polygonize|neighborhood|nets|patches/(constructions|joins)"
       "|primvar|schemes|certificates/(spectra|c1|witness|regularity))/|^eval/sublimit/eval/kernels/"
-      "|^stencils/sublimit/(stencils/(files|fit_jobs|gallery|patterns|picture|shards)"
+      "|^stencils/sublimit/(stencils/(files|fit_jobs|gallery|json|patterns|picture|shards)"
       "|report/(analysis|asset|free_form|page)|distributed)/");
   static const std::set<std::string> doors{"lib/sublimit/cad/opencascade/step.h",
                                            "stencils/sublimit/distributed/distributed.h",

@@ -8,7 +8,6 @@
 #include "support/normal_surfaces.h"
 #include "support/recipes.h"
 #include "sublimit/stencils/jobs/detail/mesh_info_json.h"
-#include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit::cli {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <array>
 
+#include <array>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
 
@@ -13,118 +12,77 @@
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"
+#include "sublimit/stencils/json/json_object.h"
 
 namespace sublimit::cli {
 namespace {
 
-/// A line of a manifest, and where it is.
-class Line {
- public:
-  Line(std::string place, const std::filesystem::path& directory) : place_(std::move(place)), directory_(directory) {}
+JsonValue parse_line(const std::string& text, const std::string& path, std::int64_t number) {
+  const std::string advice = "every line should be one object, like {\"mesh\": \"cage.obj\", ...}";
+  try {
+    JsonValue root = parse_json(text, path, number);
+    if (root.type == JsonValue::Type::object) return root;
+    throw FormatError(fmt::format("{}:{}: holds {}", path, number, show(root)));
+  } catch (const FormatError& error) {
+    throw FormatError(std::string(error.what()) + "; " + advice);
+  }
+}
 
-  BakeJob job(const std::string& text, BakeJob job) const {
-    const nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
-    if (object.is_discarded()) fail("not JSON; every line should be one object, like {\"mesh\": \"cage.obj\", ...}");
-    if (!object.is_object()) fail("not an object; it should be like {\"mesh\": \"cage.obj\", ...}");
-    for (const auto& [key, value] : object.items()) set(job, key, value);
-    for (const auto& [key, given] : {std::pair("mesh", &job.common.mesh), std::pair("scheme", &job.common.scheme),
-                                     std::pair("output", &job.output)})
-      if (given->empty()) fail(fmt::format("\"{}\" is missing", key));
-    return job;
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& what) const { throw FormatError(place_ + what); }
-  [[noreturn]] void fail(const std::string& key, const nlohmann::json& value, const char* right) const {
-    fail(fmt::format("\"{}\" is {}; it should be {}", key, value.dump().substr(0, 60), right));
-  }
-
-  std::string word(const std::string& key, const nlohmann::json& value) const {
-    if (!value.is_string() || value.get<std::string>().empty()) fail(key, value, "a text");
-    return value;
-  }
-  std::string path(const std::string& key, const nlohmann::json& value) const {
-    return (directory_ / word(key, value)).string();  // an absolute path stays one
-  }
-  bool flag(const std::string& key, const nlohmann::json& value) const {
-    if (!value.is_boolean()) fail(key, value, "true or false");
-    return value;
-  }
-  int whole(const std::string& key, const nlohmann::json& value) const {
-    if (!value.is_number_integer() || value < 0 || value > std::numeric_limits<int>::max())
-      fail(key, value, "a whole number");
-    return value;
-  }
-  std::string one_of(const std::string& key, const nlohmann::json& value, std::span<const char* const> words) const {
-    std::string right;
-    for (const char* known : words) {
-      if (value.is_string() && value == known) return known;
-      right += (right.empty() ? "" : ", ") + std::string(known);
-    }
-    fail(key, value, ("one of " + right).c_str());
-  }
-
-  void set(BakeJob& job, const std::string& key, const nlohmann::json& value) const {
-    if (key == "mesh") {
-      job.common.mesh = path(key, value);
-    } else if (key == "output") {
-      job.output = path(key, value);
-    } else if (key == "at") {
-      job.at = path(key, value);
-    } else if (key == "tessellation") {
-      job.tessellation = path(key, value);
-    } else if (key == "scheme") {
-      job.common.scheme = word(key, value);
-    } else if (key == "levels") {
-      job.levels = whole(key, value);
-    } else if (key == "grid") {
-      job.grid = whole(key, value);
-    } else if (key == "limit") {
-      job.limit = flag(key, value);
-    } else if (key == "derivatives") {
-      job.derivatives = whole(key, value);
-      if (job.derivatives > 2) fail(key, value, "0, 1 or 2");
-    } else if (key == "precision") {
-      job.is_float = one_of(key, value, std::array{"float", "double"}) == "float";
-    } else if (key == "boundary") {
-      job.common.boundary = one_of(key, value, boundary_words);
-    } else if (key == "creasing") {
-      job.common.creasing = one_of(key, value, creasing_words);
-    } else if (key == "triangles") {
-      job.common.triangles = one_of(key, value, triangles_words);
-    } else if (key == "face-varying") {
-      job.common.face_varying = one_of(key, value, face_varying_words);
-    } else if (key == "tags") {
-      job.tags = flag(key, value);
-    } else if (key == "triangulate") {
-      job.common.triangulate = flag(key, value);
-    } else if (key == "no-creases") {
-      job.common.no_creases = flag(key, value);
-    } else if (key == "strict") {
-      job.common.strict = flag(key, value);
-    } else if (key == "options") {
-      if (!value.is_object()) fail(key, value, "an object, like {\"tension\": \"1/2\"}");
-      for (const auto& [name, text] : value.items()) {
-        if (!text.is_string() && !text.is_number()) fail(name, text, "a text or a number");
-        job.common.options.push_back(name + "=" + (text.is_string() ? text.get<std::string>() : text.dump()));
-      }
-    } else {
-      fail(fmt::format(
-          "\"{}\" is no key of a job; they are mesh, scheme, output, levels, limit, grid, at, "
-          "tessellation, derivatives, precision, options, boundary, creasing, triangles, triangulate, no-creases, face-varying, tags, "
-          "strict",
-          key));
+/// The job of a line. Its paths are relative to the manifest's directory.
+BakeJob read_job(const std::string& text_of_line, const std::string& manifest, std::int64_t number, BakeJob job) {
+  const std::filesystem::path directory = std::filesystem::path(manifest).parent_path();
+  const JsonValue root = parse_line(text_of_line, manifest, number);
+  JsonObject line(root, fmt::format("{}:{}", manifest, number));
+  const auto text = [&](const char* key, std::string& out) {
+    if (!line.has(key)) return false;
+    out = line.string(key, "a text");
+    if (out.empty()) line.fail(key, "is empty; it should be a text");
+    return true;
+  };
+  const auto path = [&](const char* key, std::string& out) {
+    if (text(key, out)) out = (directory / out).string();  // an absolute path stays one
+  };
+  const auto rule = [&](const char* key, std::span<const char* const> words, std::string& out) {
+    if (line.has(key)) out = words[line.word(key, words)];
+  };
+  const auto whole = [&](const char* key, std::optional<int>& out) {
+    if (line.has(key)) out = line.integer(key, 0, std::numeric_limits<int>::max());
+  };
+  Common& common = job.common;
+  path("mesh", common.mesh), text("scheme", common.scheme), path("output", job.output);
+  for (const auto& [key, given] :
+       {std::pair("mesh", &common.mesh), std::pair("scheme", &common.scheme), std::pair("output", &job.output)})
+    if (given->empty()) line.required(key, "a text");
+  path("at", job.at), path("tessellation", job.tessellation);
+  whole("levels", job.levels), whole("grid", job.grid);
+  job.limit = line.flag_or("limit", job.limit);
+  job.derivatives = line.integer_or("derivatives", 0, 2, job.derivatives);
+  job.is_float = line.word_or("precision", std::array{"float", "double"}, job.is_float ? 0 : 1) == 0;
+  job.tags = line.flag_or("tags", job.tags);
+  rule("boundary", boundary_words, common.boundary);
+  rule("creasing", creasing_words, common.creasing);
+  rule("triangles", triangles_words, common.triangles);
+  rule("face-varying", face_varying_words, common.face_varying);
+  common.triangulate = line.flag_or("triangulate", common.triangulate);
+  common.no_creases = line.flag_or("no-creases", common.no_creases);
+  common.strict = line.flag_or("strict", common.strict);
+  if (line.has("options")) {
+    const char* const what = "an object, like {\"tension\": \"1/2\"}";
+    const JsonValue& options = line.required("options", what, JsonValue::Type::object);
+    for (size_t i = 0; i < options.keys.size(); ++i) {
+      const JsonValue& value = options.items[i];
+      if (value.type != JsonValue::Type::string && value.type != JsonValue::Type::number)
+        line.fail("options." + options.keys[i], "is " + show(value) + "; it should be a text or a number");
+      common.options.push_back(options.keys[i] + "=" + value.text);
     }
   }
-
-  std::string place_;
-  const std::filesystem::path& directory_;
-};
+  line.finish();
+  return job;
+}
 
 }  // namespace
 
 std::vector<ManifestJob> read_manifest(const std::string& path, const BakeJob& defaults) {
-  const std::filesystem::path directory = std::filesystem::path(path).parent_path();
   std::istringstream lines(read_file(path));
   std::vector<ManifestJob> jobs;
   std::map<std::string, std::int64_t> line_of_output;
@@ -132,14 +90,14 @@ std::vector<ManifestJob> read_manifest(const std::string& path, const BakeJob& d
   for (std::string text; std::getline(lines, text);) {
     ++number;
     if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::string place = fmt::format("{}:{}: ", path, number);
-    jobs.push_back({number, Line(place, directory).job(text, defaults)});
+    const std::string place = fmt::format("{}:{}", path, number);
+    jobs.push_back({number, read_job(text, path, number, defaults)});
     // Machines would write over each other's.
     const auto [other, is_new] =
         line_of_output.try_emplace(std::filesystem::path(jobs.back().job.output).lexically_normal().string(), number);
     if (!is_new)
       throw FormatError(
-          fmt::format("{}\"output\" is that of line {} too; every job should have its own", place, other->second));
+          fmt::format("{}: output: is that of line {} too; every job should have its own", place, other->second));
   }
   return jobs;
 }

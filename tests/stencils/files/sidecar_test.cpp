@@ -94,8 +94,8 @@ TEST(Sidecar, EveryBoundaryHasAName) {
 TEST(Sidecar, UnknownKeysAreWarnedAbout) {
   const Mesh mesh = with(R"({"subdivisionScheme": "loop", "deep": {"creaseIndices": 3}})");
   ASSERT_EQ(mesh.warnings.size(), 2u);
-  EXPECT_EQ(mesh.warnings[0], "strip.json: unknown key \"deep\" ignored");
-  EXPECT_EQ(mesh.warnings[1], "strip.json: unknown key \"subdivisionScheme\" ignored");
+  EXPECT_EQ(mesh.warnings[0], "strip.json: unknown key \"subdivisionScheme\" ignored");
+  EXPECT_EQ(mesh.warnings[1], "strip.json: unknown key \"deep\" ignored");
 }
 
 TEST(Sidecar, SaysWhatIsNotJson) {
@@ -105,7 +105,7 @@ TEST(Sidecar, SaysWhatIsNotJson) {
   };
   expect("", {"strip.json:1: not JSON"});
   expect("{\n\"holeIndices\": [1,\n}", {"strip.json:3: not JSON", "column 1"});
-  expect("{\"holeIndices\": [1e999]}", {"strip.json: not JSON", "1e999"});
+  expect("{\"holeIndices\": [1e999]}", {"strip.json:1: not JSON", "1e999"});
   expect("\xff\xfe{", {"strip.json:1: not JSON"});
   expect("[1, 2]", {"strip.json: holds an array", "a sidecar is an object"});
   expect("3", {"strip.json: holds 3"});
@@ -113,7 +113,7 @@ TEST(Sidecar, SaysWhatIsNotJson) {
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "{\"a\":";
   expect(deep, {"strip.json: nests deeper"});
-  expect(R"({"holeIndices": [0], "holeIndices": [1]})", {"strip.json: has the key 'holeIndices' twice"});
+  expect(R"({"holeIndices": [0], "holeIndices": [1]})", {"strip.json: has the field \"holeIndices\" twice"});
 }
 
 TEST(Sidecar, SaysWhereItMakesNoSense) {
@@ -121,51 +121,54 @@ TEST(Sidecar, SaysWhereItMakesNoSense) {
     SCOPED_TRACE(text);
     expect_error<FormatError>([&] { with(text); }, parts);
   };
-  expect(R"({"holeIndices": 1})", {"strip.json: holeIndices is 1; it should be a list"});
-  expect(R"({"holeIndices": null})", {"strip.json: holeIndices is null"});
-  expect(R"({"holeIndices": [0, "1"]})", {"strip.json: holeIndices[1] is \"1\"; it should be an integer"});
-  expect(R"({"holeIndices": [0.0]})", {"strip.json: holeIndices[0] is 0.0"});
-  expect(R"({"holeIndices": [[0]]})", {"strip.json: holeIndices[0] is an array"});
-  expect(R"({"holeIndices": [2]})", {"strip.json: holeIndices[0]: face 2 is out of range; it should be 0 to 1"});
-  expect(R"({"holeIndices": [-1]})", {"strip.json: holeIndices[0]: face -1 is out of range"});
-  expect(R"({"holeIndices": [18446744073709551615]})", {"strip.json: holeIndices[0]: face 18446744073709551615"});
+  expect(R"({"holeIndices": 1})", {"strip.json: holeIndices: is 1; it should be a list"});
+  expect(R"({"holeIndices": null})", {"strip.json: holeIndices: is null"});
+  expect(R"({"holeIndices": [0, "1"]})", {"strip.json: holeIndices[1]: is \"1\"; it should be a face"});
+  expect(R"({"holeIndices": [0.5]})", {"strip.json: holeIndices[0]: is 0.5"});
+  expect(R"({"holeIndices": [[0]]})", {"strip.json: holeIndices[0]: is an array"});
+  expect(R"({"holeIndices": [2]})", {"strip.json: holeIndices[0]: is 2; it should be a face from 0 to 1"});
+  expect(R"({"holeIndices": [-1]})", {"strip.json: holeIndices[0]: is -1; it should be a face"});
+  expect(R"({"holeIndices": [18446744073709551615]})", {"strip.json: holeIndices[0]: is 18446744073709551615"});
 
-  expect(R"({"cornerIndices": [6], "cornerSharpnesses": [1]})", {"strip.json: cornerIndices[0]: vertex 6", "0 to 5"});
-  expect(R"({"cornerIndices": [1]})", {"strip.json: cornerIndices comes without cornerSharpnesses"});
-  expect(R"({"cornerSharpnesses": [1]})", {"strip.json: cornerSharpnesses comes without cornerIndices"});
+  expect(R"({"cornerIndices": [6], "cornerSharpnesses": [1]})",
+         {"strip.json: cornerIndices[0]: is 6; it should be a vertex from 0 to 5"});
+  expect(R"({"cornerIndices": [1]})", {"strip.json: cornerIndices: comes without cornerSharpnesses"});
+  expect(R"({"cornerSharpnesses": [1]})", {"strip.json: cornerSharpnesses: comes without cornerIndices"});
   expect(R"({"cornerIndices": [1], "cornerSharpnesses": [1, 2]})",
-         {"strip.json: cornerSharpnesses has 2 values; it should have 1"});
-  expect(R"({"cornerIndices": [1, 2], "cornerSharpnesses": [1, -2]})", {"strip.json: cornerSharpnesses[1] is -2"});
-  expect(R"({"cornerIndices": [1], "cornerSharpnesses": [true]})", {"strip.json: cornerSharpnesses[0] is true"});
+         {"strip.json: cornerSharpnesses: has 2 values; it should have 1"});
+  expect(R"({"cornerIndices": [1, 2], "cornerSharpnesses": [1, -2]})",
+         {"strip.json: cornerSharpnesses[1]: is -2; a sharpness"});
+  expect(R"({"cornerIndices": [1], "cornerSharpnesses": [true]})", {"strip.json: cornerSharpnesses[0]: is true"});
 
-  expect(R"({"creaseIndices": [0, 1]})", {"strip.json: creaseIndices comes without creaseLengths"});
-  expect(R"({"creaseIndices": [0, 1], "creaseLengths": [2]})", {"creaseIndices comes without creaseSharpnesses"});
-  expect(R"({"creaseLengths": [2]})", {"strip.json: creaseLengths comes without creaseIndices"});
-  expect(R"({"creaseSharpnesses": [2]})", {"strip.json: creaseSharpnesses comes without creaseIndices"});
+  expect(R"({"creaseIndices": [0, 1]})", {"strip.json: creaseIndices: comes without creaseLengths"});
+  expect(R"({"creaseIndices": [0, 1], "creaseLengths": [2]})", {"creaseIndices: comes without creaseSharpnesses"});
+  expect(R"({"creaseLengths": [2]})", {"strip.json: creaseLengths: comes without creaseIndices"});
+  expect(R"({"creaseSharpnesses": [2]})", {"strip.json: creaseSharpnesses: comes without creaseIndices"});
   const auto expect_crease = [&](const std::string& indices, const std::string& lengths, const std::string& sharpnesses,
                                  std::initializer_list<std::string_view> parts) {
     expect(R"({"creaseIndices": )" + indices + R"(, "creaseLengths": )" + lengths + R"(, "creaseSharpnesses": )" +
                sharpnesses + "}",
            parts);
   };
-  expect_crease("[0, 1]", "[1]", "[1]", {"strip.json: creaseLengths[0] is 1; a chain should have 2"});
-  expect_crease("[0, 1]", "[-2]", "[1]", {"strip.json: creaseLengths[0] is -2"});
-  expect_crease("[0, 1]", "[\"2\"]", "[1]", {"strip.json: creaseLengths[0] is \"2\""});
-  expect_crease("[0, 1]", "[18446744073709551615]", "[1]", {"strip.json: creaseLengths[0]: the chains need more"});
-  expect_crease("[0, 1, 2]", "[2]", "[1]", {"strip.json: creaseLengths add up to 2; creaseIndices has 3"});
+  expect_crease("[0, 1]", "[1]", "[1]",
+                {"strip.json: creaseLengths[0]: is 1; it should be the number of vertices of a chain, from 2"});
+  expect_crease("[0, 1]", "[-2]", "[1]", {"strip.json: creaseLengths[0]: is -2"});
+  expect_crease("[0, 1]", "[\"2\"]", "[1]", {"strip.json: creaseLengths[0]: is \"2\""});
+  expect_crease("[0, 1]", "[18446744073709551615]", "[1]", {"strip.json: creaseLengths[0]: is 18446744073709551615"});
+  expect_crease("[0, 1, 2]", "[2]", "[1]", {"strip.json: creaseLengths: they add up to 2; creaseIndices has 3"});
   expect_crease("[0, 1, 2]", "[3, 2]", "[1, 1]", {"strip.json: creaseLengths[1]: the chains need more"});
   expect_crease("[0, 1, 2]", "[3]", "[1, 2, 3]",
-                {"strip.json: creaseSharpnesses has 3 values", "1, one for each chain, or 2"});
+                {"strip.json: creaseSharpnesses: has 3 values", "1, one for each chain, or 2"});
   expect_crease("[0, 1, 3]", "[3]", "[1]",
                 {"strip.json: creaseIndices[1]: no face has an edge between vertices 1 and 3"});
-  expect_crease("[0, 9]", "[2]", "[1]", {"strip.json: creaseIndices[1]: vertex 9 is out of range"});
+  expect_crease("[0, 9]", "[2]", "[1]", {"strip.json: creaseIndices[1]: is 9; it should be a vertex"});
 
   expect(R"({"interpolateBoundary": "edges"})",
-         {"strip.json: interpolateBoundary is \"edges\"; it should be one of none, edgeOnly, edgeAndCorner"});
-  expect(R"({"interpolateBoundary": 1})", {"strip.json: interpolateBoundary is 1"});
+         {"strip.json: interpolateBoundary: is \"edges\"; it should be one of none, edgeOnly, edgeAndCorner"});
+  expect(R"({"interpolateBoundary": 1})", {"strip.json: interpolateBoundary: is 1"});
   expect(R"({"triangleSubdivisionRule": "catmark"})", {"triangleSubdivisionRule", "catmullClark, smooth"});
   expect(R"({"creaseMethod": "normal"})", {"creaseMethod", "uniform, chaikin"});
-  expect(R"({"faceVaryingLinearInterpolation": []})", {"faceVaryingLinearInterpolation is an array"});
+  expect(R"({"faceVaryingLinearInterpolation": []})", {"faceVaryingLinearInterpolation: is an array"});
 }
 
 TEST(Sidecar, LeavesTheMeshAsItWasWhenItFails) {

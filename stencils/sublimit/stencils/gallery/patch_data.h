@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sublimit/core/types.h"
-#include "sublimit/stencils/recipes/detail/json_value.h"
+#include "sublimit/stencils/json/json_value.h"
 
 namespace sublimit::gallery {
 

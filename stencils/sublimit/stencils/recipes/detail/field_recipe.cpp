@@ -124,9 +124,7 @@ FieldPointer read_one_field(RecipeObject& object) {
   const std::string name = object.string("field", "the name of a field, such as \"sphere\"");
   const auto found = std::ranges::find_if(field_kinds, [&](const FieldKind& kind) { return name == kind.name; });
   if (found == std::end(field_kinds))
-    object.fail("field", "unknown field " +
-                             show({.type = JsonValue::Type::string, .text = name, .items = {}, .keys = {}}) + "; " +
-                             nearest_in_words(name, field_names()));
+    object.fail("field", "unknown field " + show_text(name) + "; " + nearest_in_words(name, field_names()));
   try {
     return found->read(object);
   } catch (const InvalidParameter& error) {

@@ -34,9 +34,7 @@ RecipeKind find_kind(const std::string& kind, const std::string& place) {
   const std::vector<RecipeKind> all = all_kinds();
   const auto found = std::ranges::find_if(all, [&](const RecipeKind& entry) { return kind == entry.name; });
   if (found != all.end()) return *found;
-  throw FormatError(place + ": unknown kind " +
-                    show({.type = JsonValue::Type::string, .text = kind, .items = {}, .keys = {}}) + "; " +
-                    nearest_in_words(kind, recipe_kinds()));
+  throw FormatError(place + ": unknown kind " + show_text(kind) + "; " + nearest_in_words(kind, recipe_kinds()));
 }
 
 /// @param what  of which these are the control points
@@ -108,9 +106,7 @@ std::vector<std::string> recipe_kinds() {
 std::vector<Recipe> parse_recipes(std::string_view text, const std::string& name) {
   const auto whole = std::make_shared<const JsonValue>(parse_json(text, name));
   const JsonValue& root = *whole;
-  if (root.type != JsonValue::Type::object)
-    throw FormatError(name + ": holds " + show(root) +
-                      "; a recipe is an object {\"kind\": ..}, several are {\"recipes\": [..]}");
+  require_object(root, name, "a recipe is an object {\"kind\": ..}, several are {\"recipes\": [..]}");
   std::vector<Recipe> recipes;
   if (const JsonValue* const list = root.find("recipes"); list && !root.find("kind")) {
     if (list->type != JsonValue::Type::array || list->items.empty())

@@ -13,8 +13,8 @@
 
 #include "sublimit/patches/constructions/spline_net.h"
 #include "sublimit/patches/linear_curve.h"
-#include "sublimit/stencils/recipes/detail/exact_number.h"
-#include "sublimit/stencils/recipes/detail/json_value.h"
+#include "sublimit/stencils/json/exact_number.h"
+#include "sublimit/stencils/json/json_value.h"
 
 namespace sublimit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/stencils/recipes/detail/exact_number.h"
+#include "sublimit/stencils/json/exact_number.h"
 
 #include <bit>
 #include <cmath>

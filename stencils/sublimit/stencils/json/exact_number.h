@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Numbers of a recipe: a double, and the text as written, for exact computations.
+// Numbers of a file: a double, and the text as written, for exact computations.
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // JSON as a tree that keeps the digits of numbers as they were written.
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,11 +23,14 @@ struct JsonValue {
 
 /// Parses JSON.
 /// @param name  name of the file, for messages
+/// @param line  number of the line that the text is, if the file has an object in each line; else lines are counted
 /// @throws FormatError  not JSON, with file:line; a key that comes twice in an object; more than 64 levels of nesting;
 ///                      numbers beyond the largest double
-JsonValue parse_json(std::string_view text, const std::string& name);
+JsonValue parse_json(std::string_view text, const std::string& name, std::optional<std::int64_t> line = {});
 
 /// Returns a value as text for messages: "an array", "2.5", "\"smooth\"".
 std::string show(const JsonValue& value);
+/// Returns a text as `show` does for a string: in quotes, shortened.
+std::string show_text(const std::string& text);
 
 }  // namespace sublimit

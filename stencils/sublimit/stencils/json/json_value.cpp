@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/stencils/recipes/detail/json_value.h"
+#include "sublimit/stencils/json/json_value.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 #include <utility>
 
 #include "sublimit/base/detail/format_number.h"
@@ -16,7 +17,8 @@ using nlohmann::json;
 
 class TreeBuilder : public nlohmann::json_sax<json> {
  public:
-  TreeBuilder(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+  TreeBuilder(std::string_view text, const std::string& name, std::optional<std::int64_t> line)
+      : text_(text), name_(line ? name + ":" + format_number(*line) : name), is_line_(line) {}
 
   JsonValue take() { return std::move(root_); }
 
@@ -35,12 +37,8 @@ class TreeBuilder : public nlohmann::json_sax<json> {
   bool binary(json::binary_t&) override { return false; }
   bool start_object(std::size_t) override { return begin(JsonValue::Type::object); }
   bool key(std::string& value) override {
-    std::vector<std::string>& keys = open_.back().keys;
-    if (keys.size() >= most_keys) fail("an object with more than " + format_number(most_keys) + " fields");
-    if (std::ranges::find(keys, value) != keys.end())
-      fail("has the field " + show({.type = JsonValue::Type::string, .text = value, .items = {}, .keys = {}}) +
-           " twice");
-    keys.push_back(std::move(value));
+    if (!keys_.back().insert(value).second) fail("has the field " + show_text(value) + " twice");
+    open_.back().keys.push_back(std::move(value));
     return true;
   }
   bool end_object() override { return end(); }
@@ -50,12 +48,13 @@ class TreeBuilder : public nlohmann::json_sax<json> {
     const auto last = text_.begin() + static_cast<std::ptrdiff_t>(std::min(position, text_.size()));
     const std::string message = error.what();
     const std::size_t bracket = message.find("] ");  // behind the name of the exception
-    throw FormatError(name_ + ":" + format_number(1 + std::count(text_.begin(), last, '\n')) +
+    const std::string line = is_line_ ? "" : ":" + format_number(1 + std::count(text_.begin(), last, '\n'));
+    throw FormatError(name_ + line +
                       ": not JSON: " + (bracket == std::string::npos ? message : message.substr(bracket + 2)));
   }
 
  private:
-  static constexpr std::size_t most_keys = 100, deepest = 64;
+  static constexpr std::size_t deepest = 64;
 
   [[noreturn]] void fail(const std::string& what) const { throw FormatError(name_ + ": " + what); }
 
@@ -73,20 +72,23 @@ class TreeBuilder : public nlohmann::json_sax<json> {
   }
   bool begin(JsonValue::Type type) {
     if (open_.size() >= deepest)
-      fail("nests deeper than any recipe does, more than " + format_number(deepest) + " levels");
+      fail("nests deeper than " + format_number(deepest) + " levels, the most that are read");
     open_.push_back({.type = type, .text = {}, .items = {}, .keys = {}});
+    keys_.emplace_back();
     return true;
   }
   bool end() {
     JsonValue done = std::move(open_.back());
-    open_.pop_back();
+    open_.pop_back(), keys_.pop_back();
     return add(std::move(done));
   }
 
   std::string_view text_;
-  const std::string& name_;
+  std::string name_;
+  bool is_line_;
   JsonValue root_;
   std::vector<JsonValue> open_;
+  std::vector<std::unordered_set<std::string>> keys_;  // of each open value
 };
 
 }  // namespace
@@ -96,8 +98,8 @@ const JsonValue* JsonValue::find(std::string_view key) const {
   return found == keys.end() ? nullptr : &items[static_cast<std::size_t>(found - keys.begin())];
 }
 
-JsonValue parse_json(std::string_view text, const std::string& name) {
-  TreeBuilder builder(text, name);
+JsonValue parse_json(std::string_view text, const std::string& name, std::optional<std::int64_t> line) {
+  TreeBuilder builder(text, name, line);
   if (!json::sax_parse(text.begin(), text.end(), &builder)) throw FormatError(name + ": not JSON");
   return builder.take();
 }
@@ -111,12 +113,16 @@ std::string show(const JsonValue& value) {
     case JsonValue::Type::number:
       return value.text.substr(0, 40);
     case JsonValue::Type::string:
-      return json(value.text).dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40);
+      return show_text(value.text);
     case JsonValue::Type::array:
       return "an array";
     default:
       return "an object";
   }
+}
+
+std::string show_text(const std::string& text) {
+  return json(text).dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40);
 }
 
 }  // namespace sublimit
