@@ -15,6 +15,7 @@
 #include "sublimit/neighborhood/local_type.h"
 #include "sublimit/neighborhood/sector_labels.h"
 #include "sublimit/neighborhood/walk.h"
+#include "sublimit/scheme/detail/mask_reach.h"
 #include "sublimit/scheme/detail/refine_impl.h"
 #include "sublimit/scheme/detail/subdivision_rows_impl.h"
 
@@ -43,11 +44,13 @@ struct SparsePatch : LocalPlaces {
   SparseMatrixOf<T> A;
 };
 
-/// Returns an upper bound of the rings of points that masks of one level reach. Steps of repeated averaging add
-/// up: degree 9 needs four rings.
+/// Returns an upper bound of the rings of points that masks of one level reach, by what their sites are given: those of
+/// wide faces have edge points of the faces around them. Steps add up: averages of degree 9 need four rings.
 template <class T>
 int rings_of_masks(const Scheme<T>& scheme) {
-  return std::max(3, static_cast<int>(scheme.steps.size()) - 1);
+  int rings = scheme.is_wide() ? 0 : -1;
+  for (const Step<T>& step : scheme.steps) rings += step.masks.wide_edge || step.masks.wide_face ? 3 : 1;
+  return std::max(3, rings);
 }
 
 /// Returns a mesh of n faces of `face_size` corners around vertex 0.
@@ -231,9 +234,6 @@ bool patches_within(const Scheme<T>& scheme, const LocalType& type, const LocalP
           add(column);
       }
     });
-    const auto most = static_cast<size_t>(rings + rings_of_masks(scheme)) - 1;
-    if (closed && most < parent.ring_end.size() && patch.slots.back() >= parent.ring_end[most])
-      throw AnalysisError(scheme.name + ": a neighbourhood is not closed under refinement");
     if (!closed) {
       patches.clear();
       return true;
@@ -295,8 +295,7 @@ template <class T>
 std::optional<std::vector<SparsePatch<T>>> sparse_patches(const Scheme<T>& scheme, const LocalType& type,
                                                           const LocalPatchOptions& options) {
   if (type.corner && scheme.is_dual()) return std::nullopt;  // dual schemes round corners
-  const int most = options.rings.back() + rings_of_masks(scheme);
-  for (int depth = options.rings.back() + (scheme.is_wide() ? 2 : 1); depth <= most; ++depth) {
+  for (int depth = options.rings.back() + (scheme.is_wide() ? 2 : 1); depth <= most_rings; ++depth) {
     std::vector<SparsePatch<T>> patches;
     if (!local_patch_detail::patches_within(scheme, type, options, depth, patches)) return std::nullopt;
     if (!patches.empty()) return patches;

@@ -216,6 +216,23 @@ std::vector<PieceChild> of_corner(HalfEdge h, const Topology& parent, std::span<
 
 }  // namespace
 
+PieceCoordinates corner_place(Piece::Kind kind, int corner) {
+  if (kind == Piece::Kind::triangle) return triangle_place(corner == 1, corner == 2);
+  return quad_place(corner == 1 || corner == 2, corner >= 2);
+}
+
+int corner_at(Piece::Kind kind, const PieceCoordinates& p) {
+  if (kind == Piece::Kind::triangle)
+    return p.u == 0 && p.v == 0 ? 0 : p.v == 0 && p.u1 == 0 ? 1 : p.u == 0 && p.u1 == 0 ? 2 : -1;
+  if ((p.u != 0 && p.u1 != 0) || (p.v != 0 && p.v1 != 0)) return -1;
+  return p.v == 0 ? (p.u == 0 ? 0 : 1) : (p.u == 0 ? 3 : 2);
+}
+
+int nearest_corner(Piece::Kind kind, const PieceCoordinates& p) {
+  if (kind == Piece::Kind::triangle) return p.u1 >= p.u && p.u1 >= p.v ? 0 : p.u >= p.v ? 1 : 2;
+  return nearest_corner(p.u, p.v);
+}
+
 std::vector<PieceChild> children(const Piece& piece, const Topology& parent, std::span<const LevelStep> steps) {
   switch (piece.kind) {
     case Piece::Kind::quad:

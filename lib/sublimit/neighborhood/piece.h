@@ -24,6 +24,13 @@ struct Piece {
   HalfEdge start = no_half_edge;
 };
 
+/// Returns the place of a corner of a piece; corners count counter-clockwise from (0,0).
+PieceCoordinates corner_place(Piece::Kind kind, int corner);
+/// Returns the corner that a place is at, or -1.
+int corner_at(Piece::Kind kind, const PieceCoordinates& place);
+/// Returns the corner that is nearest to a place.
+int nearest_corner(Piece::Kind kind, const PieceCoordinates& place);
+
 /// A child of a piece.
 struct PieceChild {
   Piece piece;   ///< piece of the refined level

@@ -14,6 +14,8 @@
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/neighborhood/canonical_part.h"
 #include "sublimit/neighborhood/closed_set.h"
+#include "sublimit/neighborhood/piece_rings.h"
+#include "sublimit/neighborhood/piece_rows.h"
 #include "sublimit/neighborhood/polynomial_search.h"
 #include "sublimit/neighborhood/regular_smoothness.h"
 #include "sublimit/scheme/detail/check_scheme.h"
@@ -23,25 +25,6 @@
 
 namespace sublimit {
 namespace {
-
-/// Parameters of the corners of a piece, counter-clockwise.
-PieceCoordinates corner_place(Piece::Kind kind, int corner) {
-  if (kind == Piece::Kind::triangle) return triangle_place(corner == 1, corner == 2);
-  return quad_place(corner == 1 || corner == 2, corner >= 2);
-}
-
-/// The corner that a place is at, or -1.
-int corner_at(Piece::Kind kind, const PieceCoordinates& p) {
-  if (kind == Piece::Kind::triangle)
-    return p.u == 0 && p.v == 0 ? 0 : p.v == 0 && p.u1 == 0 ? 1 : p.u == 0 && p.u1 == 0 ? 2 : -1;
-  if ((p.u != 0 && p.u1 != 0) || (p.v != 0 && p.v1 != 0)) return -1;
-  return p.v == 0 ? (p.u == 0 ? 0 : 1) : (p.u == 0 ? 3 : 2);
-}
-
-int nearest_corner(Piece::Kind kind, const PieceCoordinates& p) {
-  if (kind == Piece::Kind::triangle) return p.u1 >= p.u && p.u1 >= p.v ? 0 : p.u >= p.v ? 1 : 2;
-  return sublimit::nearest_corner(p.u, p.v);
-}
 
 /// Factor of a map that only scales, as it lies; 0 of any other.
 double pure_scale(const PieceMap& map) {
@@ -120,22 +103,6 @@ Eigen::RowVectorXd monomials(int degree, double u, double v) {
 
 }  // namespace
 
-void apply_chain(const PieceMap::Chain& c, RowMatrix& rows) {
-  if (rows.rows() < 3) return;
-  const RowMatrix old = rows;
-  for (int i = 0; i < 2; ++i) rows.row(1 + i) = c.first[i][0] * old.row(1) + c.first[i][1] * old.row(2);
-  if (rows.rows() < 6) return;
-  for (int i = 0; i < 3; ++i)
-    rows.row(3 + i) = c.second[i][0] * old.row(3) + c.second[i][1] * old.row(4) + c.second[i][2] * old.row(5) +
-                      c.bend[i][0] * old.row(1) + c.bend[i][1] * old.row(2);
-}
-
-void turn_tangents(const PieceMap::Chain& c, RowMatrix& tangents) {
-  if (tangents.rows() < 2) return;
-  const RowMatrix old = tangents;
-  for (int i = 0; i < 2; ++i) tangents.row(i) = c.first[i][0] * old.row(0) + c.first[i][1] * old.row(1);
-}
-
 namespace {
 
 /// What a level's topology and sharpness take, about.
@@ -146,13 +113,8 @@ double bytes_of(const Topology& t) {
 }  // namespace
 
 PieceType::Surroundings PieceType::found_surroundings() const {
-  const Scheme<double>& scheme = types_->scheme_;
   const Index face = index(met_.level->topology().face(met_.piece.start));
-  const bool narrow = scheme.has_one_ring_limits();
-  // Masks near the rim of a part are not the mesh's: one more ring, where they look further.
-  // (and one for the knots of those).
-  const int rings = rings_ + (met_.level->intervals.empty() ? 0 : 1) +
-                    (narrow || (scheme.is_dual() && scheme.steps.size() == 1) ? 0 : scheme.period);
+  const int rings = rings_ + types_->rings_beyond(*met_.level);
   const std::span<const Index> faces(&face, 1);
   Part around = apart_ ? sheet_part(*met_.level, faces, rings) : part(*met_.level, faces, rings);
   types_->take(bytes_of(around.level.topology()), num_slots());
@@ -346,25 +308,26 @@ struct PieceType::CornerPath {
   }
   /// Whether what a slot is after k cycles tends to a fixed row: one that repels is a fixed row as well.
   bool attracts(const RowMatrix& fixed, Index slot) const {
-    if (averages(fixed, slot)) return true;
+    const bool large = is_large();
+    if (large && averages(fixed, slot)) return true;
     RowMatrix rest = -fixed;
     if (slot > 0) rest(0, slot - 1) += 1;
     const double small = 0x1p-20 * rest.norm();
     constexpr int enough = 1024;  // cycles: but for averages the slowest of our schemes shrink by 0.9
     for (int k = 0; k < enough; ++k) {
-      if (rest.norm() <= small) return true;
+      if (rest.norm() <= small || (k == 64 && !large && averages(fixed, slot))) return true;
       for (size_t i = visits.size(); i-- > first;) rest = visits[i].link->block.derivatives_pulled_back(rest);
     }
     return false;
   }
+  static constexpr double least = 1e-15;  // weights that are less are rounding
+
   /// Whether weights are non-negative and all slots that this one depends on have, after some cycles, a positive weight
   /// of one and the same slot, so that cycles contract differences (Doeblin 1937). Averages of a polygon of n vertices
   /// shrink by as little as cos(pi/n).
   bool averages(const RowMatrix& fixed, Index slot) const {
-    for (size_t i = first; i < visits.size(); ++i) {
-      const PieceBlock& block = visits[i].link->block;
-      if (block.rows().rows() == 0 || block.least_weight() < -1e-15) return false;
-    }
+    for (size_t i = first; i < visits.size(); ++i)
+      if (visits[i].link->block.least_weight() < -least) return false;
     RowMatrix after = fixed;  // in differences: fixed = origin + fixed D
     for (size_t i = visits.size(); i-- > first;) after = visits[i].link->block.pulled_back(after);
     if (!((after - fixed).norm() <= 1e-9)) return false;  // that is, it was not solved for
@@ -374,7 +337,6 @@ struct PieceType::CornerPath {
     const double largest = fixed.row(0).maxCoeff(&heaviest);
     std::vector<char> has(B.rows(), false);
     const Index common = fixed.sum() > 1 - largest ? Index(heaviest) + 1 : 0;
-    constexpr double least = 1e-15;                        // what is less is rounding
     if (!(B.coeff(common, common) > least)) return false;  // with it, what has a weight of it keeps one
     has[common] = true;
     for (bool grows = true; grows;) {
@@ -387,10 +349,21 @@ struct PieceType::CornerPath {
     }
     return std::all_of(needed.begin(), needed.end(), [&](Index s) { return bool(has[s]); });
   }
-  /// The cycle of blocks that have rows.
+  /// The rows of a block, of differences too.
+  static SparseMatrix rows_of(const PieceBlock& block) {
+    if (block.rows().rows() > 0) return block.rows();
+    const RowMatrix D = block.differences();
+    RowMatrix rows(D.rows() + 1, D.cols() + 1);
+    rows.bottomRightCorner(D.rows(), D.cols()) = D;
+    rows.row(0).tail(D.cols()).setZero();
+    rows.rightCols(D.cols()).rowwise() += block.origin();
+    rows.col(0) = 1 - rows.rightCols(D.cols()).rowwise().sum().array();
+    return SparseMatrix(rows.sparseView(1, least));
+  }
+  /// The rows of the cycle.
   SparseMatrix rows() const {
-    SparseMatrix B = visits[first].link->block.rows();
-    for (size_t i = first + 1; i < visits.size(); ++i) SparseMatrix(product(visits[i].link->block.rows(), B)).swap(B);
+    SparseMatrix B = rows_of(visits[first].link->block);
+    for (size_t i = first + 1; i < visits.size(); ++i) SparseMatrix(product(rows_of(visits[i].link->block), B)).swap(B);
     return B;
   }
 };
@@ -494,11 +467,20 @@ int PieceTypes::regular_smoothness() const {
 
 int PieceTypes::rings(const Sharpness& sharpness) const {
   // Under Chaikin creasing the sharpness of an edge's far half depends on the edges around its far end.
-  if (scheme_.has_one_ring_limits()) return sharpness.creasing == Creasing::chaikin ? 2 : 1;
-  if (scheme_.steps.size() > 1) return static_cast<int>(scheme_.steps.size()) - 1;
-  if (scheme_.is_dual())
-    return scheme_.period == 1 ? 1 : 3;             // Habib and Warren's edges look at the corners beyond their ends
-  return scheme_.steps[0].masks.wide_face ? 4 : 3;  // Kobbelt's face points are made of edge points around
+  return std::max(rings_.get([this] { return piece_rings(scheme_); }), sharpness.creasing == Creasing::chaikin ? 2 : 1);
+}
+
+int PieceTypes::rings_beyond(const Level& level) const {
+  // Masks near the rim of a part are not the mesh's: one more ring a level, where they look further, and one for knots.
+  const bool narrow = scheme_.has_one_ring_limits() || (scheme_.is_dual() && scheme_.steps.size() == 1);
+  return (level.intervals.empty() ? 0 : 1) + (narrow ? 0 : scheme_.period);
+}
+
+int PieceTypes::rings_around_corner(const Level& level) const {
+  if (scheme_.has_one_ring_limits() && level.intervals.empty()) return 1;
+  // The tangents of a closed ring look one ring further.
+  const int of_piece = std::max(rings(level.sharpness), level.intervals.empty() ? 1 : 2) + rings_beyond(level);
+  return 1 + std::max(of_piece, rings_for_refinement_.get([this] { return rings_for_refinement(scheme_); }));
 }
 
 void PieceTypes::take(double bytes, Index slots) {
@@ -551,119 +533,6 @@ const PieceType* PieceTypes::type(const Level& level, const Piece& piece, const 
   std::unique_ptr<PieceType> type = made({std::shared_ptr<const Level>(), &level}, piece, walk);
   type->surroundings();
   return kept(walk, std::move(type));
-}
-
-namespace {
-
-/// So near to a corner, but not there, that more than a few digits of tangents would go.
-bool is_beside_corner(Piece::Kind kind, const PieceCoordinates& place) {
-  constexpr double near = 0x1p-12;
-  const PieceCoordinates c = corner_place(kind, nearest_corner(kind, place));
-  return std::abs(place.u - c.u) <= near && std::abs(place.v - c.v) <= near && corner_at(kind, place) < 0;
-}
-
-/// Along the tangent plane of a polynomial at a place next to a corner. Where both derivatives are parallel at the
-/// corner, as beside a crease that leaves one face, all that the plane is known by is a difference of the size of the
-/// distance: the way to the corner keeps it apart.
-RowMatrix polynomial_tangents(const PieceType& type, const PiecePolynomial& polynomial, PieceCoordinates place) {
-  const PieceLink* const child = is_beside_corner(type.kind(), place) ? &type.child(place) : nullptr;
-  const PiecePolynomial* const next = child ? child->type->known_polynomial() : nullptr;
-  if (!next) return polynomial.rows(place, 1).middleRows(1, 2);
-  const PieceLink& link = *child;
-  if (!link.repeats) {
-    RowMatrix tangents = link.block.derivatives_pulled_back(polynomial_tangents(*link.type, *next, link.map(place)));
-    turn_tangents(link.map.chain(place), tangents);
-    return tangents;
-  }
-  int times = 0;
-  for (; times < 4095 && link.map.contains(place); ++times) place = link.map(place);
-  return link.repeated.tangents_pulled_back(polynomial.rows(place, 1).middleRows(1, 2), times);
-}
-
-}  // namespace
-
-PieceRows piece_rows(const PieceType& root, PieceCoordinates place, int order, bool search) {
-  struct Step {
-    const PieceType* from;
-    const PieceLink* link;
-    PieceCoordinates place;
-    int times;
-  };
-  // Below this many levels the rest of a cell is less than the rounding of its place.
-  constexpr int enough_halves = 54, enough_thirds = 35;
-  std::vector<Step> path;
-  const PieceType* type = &root;
-  const PieceType::CornerRows* last = nullptr;
-  PieceRows result;
-  for (int levels = 0;; ++levels) {
-    if (const PiecePolynomial* p = search ? type->polynomial() : type->known_polynomial()) {
-      result.rows = p->rows(place, order);
-      result.order = order;
-      result.on_knot = is_on_knot(place, type->kind() == Piece::Kind::triangle, type->kind() == Piece::Kind::corner,
-                                  p->coefficients.size() > 1);
-      if (order > 0 && is_beside_corner(type->kind(), place)) result.tangents = polynomial_tangents(*type, *p, place);
-      break;
-    }
-    int corner = corner_at(type->kind(), place);
-    if (corner >= 0 && type->child(place).type != type) corner = -1;  // it may become a polynomial yet
-    if (corner >= 0 || levels >= (type->children().size() == 9 ? enough_thirds : enough_halves)) {
-      result.at_corner = corner >= 0;
-      if (corner < 0) corner = nearest_corner(type->kind(), place);
-      if (order == 0) {
-        result.rows = type->corner_limit(corner);
-      } else {
-        last = &type->corner(corner);
-        result.order = std::min(order, last->order());
-        result.rows = last->rows.topRows(result.order == 0 ? 1 : result.order == 1 ? 3 : 6);
-      }
-      break;
-    }
-    const PieceLink& link = type->child(place);
-    path.push_back({type, &link, place, 1});
-    PieceCoordinates before = place;
-    place = link.map(place);
-    if (link.repeats)
-      while (path.back().times < 4095 && corner_at(type->kind(), place) < 0 && link.map.contains(place)) {
-        if (place.u == before.u && place.v == before.v) {  // it stays where it is, between corners
-          path.back().times = levels = enough_halves;
-          break;
-        }
-        before = place;
-        place = link.map(place);
-        ++path.back().times;
-      }
-    type = link.type;
-  }
-  if (result.order > 0 && result.tangents.rows() == 0) result.tangents = result.rows.middleRows(1, 2);
-  // Second derivatives of linear functions vanish. What rounding leaves of them would grow by the scale with every step
-  // back. The functions are known of the type where the path ends, which is that of all regular pieces on it.
-  const auto without_linear = [&](const PieceType* of) {
-    if (of != type || !last || last->linear.size() == 0 || result.order < 2) return;
-    result.rows.bottomRows(3) -= result.rows.bottomRows(3) * last->linear * last->rows.middleRows(1, 2);
-  };
-  for (auto step = path.rbegin(); step != path.rend(); ++step) {
-    const PieceLink& link = *step->link;
-    const PieceMap::Chain chain = result.order > 0 ? link.map.chain(step->place) : PieceMap::Chain{};
-    if (step->times == 1) {
-      result.rows = link.block.pulled_back(result.rows);
-      if (result.order == 0) continue;
-      result.tangents = link.block.derivatives_pulled_back(result.tangents);
-      turn_tangents(chain, result.tangents);
-      apply_chain(chain, result.rows);
-      without_linear(step->from);
-      continue;
-    }
-    result.rows = link.repeated.pulled_back(result.rows, step->times);
-    if (result.order == 0) continue;
-    result.tangents = link.repeated.tangents_pulled_back(std::move(result.tangents), step->times);
-    const double factor = std::pow(chain.first[0][0], step->times);
-    result.rows.middleRows(1, 2) *= factor;
-    if (result.rows.rows() < 6) continue;
-    result.rows.bottomRows(3) *= factor;
-    result.rows.bottomRows(3) *= factor;
-    without_linear(step->from);
-  }
-  return result;
 }
 
 }  // namespace sublimit

@@ -174,8 +174,14 @@ class PieceTypes {
   ~PieceTypes();
 
   const Scheme<double>& scheme() const { return scheme_; }
-  /// Returns the number of rings of faces that a piece depends on, between equal knot intervals.
+  /// Returns the number of rings of faces that a piece depends on, between equal knot intervals (`piece_rings`).
+  /// @throws AnalysisError  masks reach too far
   int rings(const Sharpness& sharpness) const;
+  /// Returns the number of rings beyond these whose masks must be those of the mesh.
+  int rings_beyond(const Level& level) const;
+  /// Returns the number of rings of faces around a face that decide the limit at its corners.
+  /// @throws AnalysisError  masks reach too far
+  int rings_around_corner(const Level& level) const;
   /// Returns the number of types.
   size_t size() const;
   bool is_full() const { return size() >= max_types_; }
@@ -214,36 +220,7 @@ class PieceTypes {
   std::optional<PolynomialBasis> basis_;    // basis of the polynomial of the first regular piece
   bool halves_ = false, searched_ = false;  // regular pieces are cut along u = v; have been examined
   std::atomic<bool> has_none_{false};       // regular pieces are no polynomials
-  ComputedOnce<int> smoothness_;
+  ComputedOnce<int> smoothness_, rings_, rings_for_refinement_;
 };
-
-/// True if polynomials meet at a place: on a side of its piece, or on the line that cuts the piece in two.
-/// @param dual    the scheme is dual: the polynomial of a piece continues across the sides at its vertex
-/// @param halves  pieces are cut along u = v
-inline bool is_on_knot(const PieceCoordinates& p, bool triangle, bool dual, bool halves) {
-  if (triangle) return p.u == 0 || p.v == 0 || p.u1 == 0;
-  return p.u1 == 0 || p.v1 == 0 || (!dual && (p.u == 0 || p.v == 0)) || (halves && p.u == p.v);
-}
-
-/// Converts derivative rows by the parameters of a child to those by the parameters of its parent, in place.
-void apply_chain(const PieceMap::Chain& chain, RowMatrix& rows);
-
-/// Converts tangent rows of a child to those of its parent, in place.
-void turn_tangents(const PieceMap::Chain& chain, RowMatrix& tangents);
-
-/// Rows of a place, over differences of the points of its piece.
-struct PieceRows {
-  RowMatrix rows;      ///< position, then u, v, then uu, uv, vv
-  RowMatrix tangents;  ///< if order >= 1: rows that span the tangent plane: u and v, up to factors that keep the normal
-  int order = 0;       ///< highest derivative that exists: 0, 1 or 2
-  bool at_corner = false;  ///< a corner without a polynomial: tangents may come from limit masks
-  bool on_knot = false;    ///< polynomials meet here: second derivatives may jump
-};
-/// Returns the rows at a place of a piece of a type.
-/// @param order   highest derivative, 0 to 2
-/// @param search  true: decide whether pieces are polynomials; false: use only polynomials that are known
-///                already
-/// @throws AnalysisError  no limit
-PieceRows piece_rows(const PieceType& type, PieceCoordinates place, int order, bool search = true);
 
 }  // namespace sublimit

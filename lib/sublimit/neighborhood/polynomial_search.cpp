@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/neighborhood/piece_rows.h"
 #include "sublimit/neighborhood/sector_mesh.h"
 
 namespace sublimit {

@@ -2,6 +2,18 @@
 #include "sublimit/neighborhood/vertex_sides.h"
 
 namespace sublimit {
+namespace {
+
+/// Where the sides of a fan start: a closed fan at the first of its sharp edges.
+HalfEdge first_of_fan(const Level& level, HalfEdge start) {
+  const Topology& t = level.topology();
+  if (!exists(t.twin(start))) return start;
+  HalfEdge h = start;
+  while (!is_cut(t, level.sharpness, h) && t.ccw(h) != start) h = t.ccw(h);
+  return is_cut(t, level.sharpness, h) ? h : start;
+}
+
+}  // namespace
 
 VertexSides vertex_sides(const Level& level) {
   const Topology& t = level.topology();
@@ -9,14 +21,8 @@ VertexSides vertex_sides(const Level& level) {
   VertexSides sides;
   sides.corner_side.assign(t.num_half_edges(), -1);
   for (Index v = 0; v < t.num_vertices(); ++v)
-    for (HalfEdge start : t.fans(Vertex{v})) {
-      // A closed fan starts at the first of its sharp edges.
-      const HalfEdge first = start;
-      if (exists(t.twin(start))) {
-        HalfEdge h = start;
-        while (!is_cut(h) && t.ccw(h) != first) h = t.ccw(h);
-        if (is_cut(h)) start = h;
-      }
+    for (const HalfEdge fan : t.fans(Vertex{v})) {
+      const HalfEdge start = first_of_fan(level, fan);
       HalfEdge h = start;
       bool hole = true, begins = true;
       do {
@@ -33,6 +39,18 @@ VertexSides vertex_sides(const Level& level) {
       } while (exists(h) && h != start);
     }
   return sides;
+}
+
+Centre first_side(const Level& level, HalfEdge corner) {
+  const Topology& t = level.topology();
+  for (const HalfEdge fan : t.fans(t.tail(corner))) {
+    HalfEdge h = fan;
+    do {
+      if (h == corner) return {Centre::Kind::vertex, first_of_fan(level, fan)};
+      h = t.ccw(h);
+    } while (exists(h) && h != fan);
+  }
+  return side_of(level, corner);
 }
 
 Centre side_of(const Level& level, HalfEdge corner) {

@@ -20,6 +20,9 @@ struct VertexSides {
 /// Returns the sides of all vertices.
 VertexSides vertex_sides(const Level& level);
 
+/// Returns the first side of a corner's fan, with the start that it has in `vertex_sides`.
+Centre first_side(const Level& level, HalfEdge corner);
+
 /// Returns the side of its tail that contains a half-edge's face, as in `vertex_sides` except for the start of
 /// a closed one.
 Centre side_of(const Level& level, HalfEdge corner);

@@ -8,6 +8,7 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/finite_points.h"
+#include "sublimit/neighborhood/piece_rows.h"
 #include "sublimit/nets/hull_cell.h"
 #include "sublimit/nets/piece_hull.h"
 #include "sublimit/surface/detail/limit_patches.h"

@@ -370,16 +370,6 @@ Subset subset(const Level& whole, std::span<const Index> chosen, int rings) {
   return result;
 }
 
-int rings_for_refinement(const Scheme<double>& scheme) {
-  // Dual splits lose the faces at the rim; wide masks see two rings of faces, Kobbelt's faces a third.
-  return scheme.is_wide()                 ? 4
-         : scheme.steps.size() > 1        ? 2 + static_cast<int>(scheme.steps.size())
-         : scheme.is_dual()               ? 3
-         : scheme.period > 1              ? 2
-         : scheme.knots != NewKnots::none ? 2
-                                          : 1;
-}
-
 Subset refine(const Scheme<double>& scheme, const Subset& part) {
   const Level refined = next_level(scheme, part.level);
   std::vector<bool> is_chosen(part.level.topology().num_faces(), false);

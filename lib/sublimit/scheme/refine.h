@@ -128,7 +128,9 @@ struct Subset {
 ///               schemes without wide masks
 /// @throws InvalidParameter  a face that does not exist
 Subset subset(const Level& level, std::span<const Index> faces, int rings = 1);
-/// Returns the number of rings that a subset needs for one refinement.
+/// Returns the number of rings that a subset needs for one refinement. Takes milliseconds for wide masks and for
+/// several steps, which are applied to labelled meshes.
+/// @throws AnalysisError  masks reach beyond twelve rings
 int rings_for_refinement(const Scheme<double>& scheme);
 
 /// Refines the selected faces without the rest of the mesh; all their children are selected in the result. Rows of

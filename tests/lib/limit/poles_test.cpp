@@ -154,7 +154,7 @@ double bytes_in_use() {
 
 TEST(Poles, TakeNoMoreMemoryThanTheyAreAllowed) {
   if (!allocations_are_counted()) GTEST_SKIP() << "the heap is not glibc's";
-  constexpr double allowed = 100e6;
+  constexpr double allowed = 50e6;
   struct Unlimited {
     ~Unlimited() { limit_memory(std::numeric_limits<double>::infinity()); }
   } at_the_end;

@@ -249,11 +249,6 @@ SparseRows pulled_back(const SparseRows& rows, const SparseMatrix& S, const std:
   return result;
 }
 
-/// Rings of faces around the places that the next level's limits may depend on.
-int rings_needed(const Scheme<double>& scheme, const Level& level) {
-  return scheme.has_one_ring_limits() && level.intervals.empty() ? 1 : 5;
-}
-
 /// Which faces are cut before the first level depends on all of them.
 bool is_prepared_first(const Scheme<double>& scheme, const Level& level) {
   return level.number == 0 && !scheme.preparation.empty() && level.topology().uniform_face_size() != scheme.corners;
@@ -292,7 +287,7 @@ std::vector<LimitRows> found_rows(const Level& level, LimitCache& cache, std::sp
   if (!whole) {
     std::vector<Index> faces;
     for (const size_t i : rest) faces.push_back(index(level.topology().face(centres[i].start)));
-    around = part(level, faces, rings_needed(scheme, level));
+    around = part(level, faces, cache.pieces().rings_around_corner(level));
   } else {
     around.vertices.resize(level.topology().num_vertices());
     std::iota(around.vertices.begin(), around.vertices.end(), 0);

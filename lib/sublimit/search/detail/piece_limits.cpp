@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/neighborhood/piece_rows.h"
 #include "sublimit/search/detail/piece_limits.h"
 
 #include <mutex>

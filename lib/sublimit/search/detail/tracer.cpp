@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "sublimit/neighborhood/piece_rows.h"
 #include "sublimit/search/detail/seen_limit.h"
 
 namespace sublimit {

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sublimit/neighborhood/piece_rings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sublimit/base/error.h"
+#include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/neighborhood/piece_walk.h"
+#include "sublimit/scheme/detail/mask_reach.h"
+
+namespace sublimit {
+namespace {
+
+/// A level after one period.
+struct Refined {
+  SparseMatrix S;
+  std::vector<LevelStep> steps;
+  explicit Refined(const std::vector<Level>& period) : S(period[0].S) {
+    for (size_t k = 0; k < period.size(); ++k) {
+      if (k > 0) S = product(period[k].S, S);
+      for (const Refinement& step : period[k].steps) steps.push_back({&step, period[k].number - 1});
+    }
+  }
+};
+
+/// A row by vertices of the whole.
+/// @param number  of each vertex in the whole; null: its own
+std::map<Index, double> row_of(const SparseMatrix& S, Index v, const std::vector<Index>* number) {
+  std::map<Index, double> row;
+  for (SparseMatrix::InnerIterator it(S, v); it; ++it)
+    if (it.value() != 0) row[number ? (*number)[size_t(it.col())] : Index(it.col())] = it.value();
+  return row;
+}
+
+bool is_alike(const std::map<Index, double>& a, const std::map<Index, double>& b) {
+  constexpr double rounding = 1e-12;  // sums may have another order
+  return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
+    return x.first == y.first && std::abs(x.second - y.second) <= rounding;
+  });
+}
+
+/// The faces that a walk of some rings around a piece comes to.
+Part walked_part(const Level& level, const Piece& piece, int rings) {
+  const Topology& t = level.topology();
+  if (piece.kind != Piece::Kind::corner) {
+    const Index face = index(t.face(piece.start));
+    return part(level, std::span(&face, 1), rings);
+  }
+  std::vector<Index> faces;  // it begins with those around the vertex
+  for (const HalfEdge fan : t.fans(t.tail(piece.start))) {
+    HalfEdge h = fan;
+    do {
+      faces.push_back(index(t.face(h)));
+      h = t.ccw(h);
+    } while (exists(h) && h != fan);
+  }
+  return part(level, faces, rings - 1);
+}
+
+/// Whether some rings around a piece decide all points in as many rings around its children: these have the same
+/// weights if everything beyond is cut off.
+bool are_enough(const Scheme<double>& scheme, const LabelledLevel& labelled, const Refined& whole, const Piece& piece,
+                int rings) {
+  PieceWalker walker;
+  const auto walk = [&](const Level& level, const Piece& p) {
+    return walker.walk(level.topology(), level.sharpness, p, rings, 0);
+  };
+  std::vector<Index> points = walk(labelled.level, piece).vertices;
+  std::sort(points.begin(), points.end());
+  const Part around = walked_part(labelled.level, piece, rings);
+  std::vector<Level> period;
+  for (int k = 0; k < scheme.period; ++k) period.push_back(next_level(scheme, k == 0 ? around.level : period.back()));
+  const Refined own(period);
+  const auto start = std::lower_bound(around.halves.begin(), around.halves.end(), index(piece.start));
+  const Piece in_part{piece.kind, HalfEdge{static_cast<Index>(start - around.halves.begin())}};
+  const std::vector<PieceChild> those = children(piece, labelled.level.topology(), whole.steps),
+                                these = children(in_part, around.level.topology(), own.steps);
+  if (those.size() != these.size()) return false;
+  const auto is_inside = [&](const auto& term) { return std::ranges::binary_search(points, term.first); };
+  for (size_t c = 0; c < those.size(); ++c) {
+    const PieceWalk a = walk(labelled.period.back(), those[c].piece), b = walk(period.back(), these[c].piece);
+    if (a.signature != b.signature) return false;
+    for (size_t s = 0; s < a.vertices.size(); ++s) {
+      const std::map<Index, double> row = row_of(whole.S, a.vertices[s], nullptr);
+      if (!std::ranges::all_of(row, is_inside)) return false;
+      if (!is_alike(row, row_of(own.S, b.vertices[s], &around.vertices))) return false;
+    }
+  }
+  return true;
+}
+
+std::vector<Piece> pieces_of(const Scheme<double>& scheme, const Topology& t, Face face) {
+  std::vector<Piece> pieces;
+  if (!scheme.is_dual()) return {{t.size(face) == 3 ? Piece::Kind::triangle : Piece::Kind::quad, t.first(face)}};
+  for (Index k = 0; k < t.size(face); ++k) pieces.push_back({Piece::Kind::corner, t.corner(face, k)});
+  return pieces;
+}
+
+}  // namespace
+
+int piece_rings(const Scheme<double>& scheme) {
+  if (has_narrow_masks(scheme) && scheme.period == 1) return 1;
+  int rings = 1;
+  for (const LabelledLevel& labelled : labelled_levels(scheme)) {
+    const Refined whole(labelled.period);
+    for (const Index face : labelled.faces)
+      for (const Piece& piece : pieces_of(scheme, labelled.level.topology(), Face{face}))
+        while (!are_enough(scheme, labelled, whole, piece, rings))
+          if (++rings > most_rings)
+            throw AnalysisError(scheme.name + ": masks reach beyond " + std::to_string(most_rings) + " rings of faces");
+  }
+  return rings;
+}
+
+}  // namespace sublimit

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far pieces reach is computed from the masks, of schemes of a user's own too.
+#include "sublimit/neighborhood/piece_rings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sublimit/limit/detail/limit_points.h"
+#include "sublimit/neighborhood/piece_walk.h"
+#include "sublimit/surface/limit_map.h"
+#include "support/irregular_meshes.h"
+#include "support/meshes.h"
+#include "support/tested_schemes.h"
+
+namespace sublimit::testing {
+namespace {
+
+/// Each mask takes all that its site has: the points of faces are made of the edge points around them, and these of the
+/// rings at both ends. Then vertices are moved by the faces around them. No scheme of the library reaches so far.
+Scheme<double> far_reaching() {
+  using T = double;
+  const auto middle = [](const auto& e) { return (e.tail() + e.head()) / 2; };
+  const auto between = [](const CreaseSite<T>& v) { return (v.before() + 2 * v.center() + v.after()) / 4; };
+  const auto around = [](const Ring<T>& v) {
+    return v.is_closed() ? (v.neighbor_mean() + v.face_centroid_mean()) / 2 : v.center();
+  };
+  const Step<T> wide{.split = Split::pqq,
+                     .masks = {.vertex = [=](const Ring<T>& v) { return (v.center() + around(v)) / 2; },
+                               .wide_edge =
+                                   [=](const WideEdgeSite<T>& e) {
+                                     return (e.tail() + e.head() + around(e.tail_ring()) + around(e.head_ring())) / 4;
+                                   },
+                               .wide_face =
+                                   [=](const WideFaceSite<T>& f) {
+                                     Stencil<T> sum;
+                                     for (int i = 0; i < 4; ++i)
+                                       sum += f.corner(i) + around(f.ring(i)) + f.edge_point(i) +
+                                              (f.has_across(i) ? f.edge_point_beyond(i) : f.edge_point(i));
+                                     return sum / 16;
+                                   }},
+                     .creases = {.vertex = between, .edge = middle}};
+  const Step<T> smooth{.split = Split::keep,
+                       .masks = {.vertex = [](const Ring<T>& v) { return v.face_centroid_mean(); }},
+                       .creases = {.vertex = between, .edge = middle}};
+  return {.name = "far",
+          .source = "a test",
+          .steps = {wide, smooth},
+          .creases = {.vertex = between, .edge = middle},
+          .sharpening = Sharpening::boundary,
+          .corners = 4};
+}
+
+double difference(const LimitStencil& a, const SparseMatrix& S, const LimitStencil& b) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(S.cols());
+  for (size_t i = 0; i < b.vertices.size(); ++i)
+    for (SparseMatrix::InnerIterator it(S, b.vertices[i]); it; ++it)
+      all[it.col()] += b.weights(0, Eigen::Index(i)) * it.value();
+  for (size_t i = 0; i < a.vertices.size(); ++i) all[a.vertices[i]] -= a.weights(0, Eigen::Index(i));
+  return all.cwiseAbs().maxCoeff();
+}
+
+/// The place in a face of a place in a quadrilateral piece of it.
+Place place_of(const Topology& t, const Piece& piece, const PieceCoordinates& p) {
+  const Face face = t.face(piece.start);
+  switch (index(piece.start) - index(t.first(face))) {
+    case 1:
+      return {index(face), p.v1, p.u};
+    case 2:
+      return {index(face), p.u1, p.v1};
+    case 3:
+      return {index(face), p.v, p.u1};
+    default:
+      return {index(face), p.u, p.v};
+  }
+}
+
+/// The limit of a quadrilateral is that of its children, level by level: what lies beyond the rings that a piece is
+/// given would be missing in one of them.
+void expect_limit_of_children(const Scheme<double>& scheme, const Mesh& mesh) {
+  const std::vector<Level> levels = refine(scheme, mesh, 2);
+  const LimitMap whole(scheme, mesh);
+  const SparseMatrix P = refinement_matrix(levels);
+  const LimitMap fine(scheme, levels[2]);
+  for (Index f = 0; f < levels[0].topology().num_faces(); ++f)
+    for (const PieceCoordinates& start : {quad_place(0.3, 0.45), quad_place(0.9, 0.6), quad_place(0.05, 0.95)}) {
+      Piece piece{Piece::Kind::quad, levels[0].topology().first(Face{f})};
+      PieceCoordinates place = start;
+      for (int k = 0; k < 2; ++k) {
+        std::vector<LevelStep> steps;
+        for (const Refinement& step : levels[size_t(k) + 1].steps) steps.push_back({&step, k});
+        const std::vector<PieceChild> all = children(piece, levels[size_t(k)].topology(), steps);
+        const auto child = std::ranges::find_if(all, [&](const PieceChild& c) { return c.map.contains(place); });
+        ASSERT_NE(child, all.end());
+        piece = child->piece;
+        place = child->map(place);
+      }
+      ASSERT_LT(difference(whole.stencil({f, start.u, start.v}), P,
+                           fine.stencil(place_of(levels[2].topology(), piece, place))),
+                1e-12)
+          << scheme.name << ": face " << f;
+    }
+  LimitCache cache(scheme);
+  const SparseMatrix coarse = limit_matrices(levels[0], cache).position, L = limit_matrices(levels[2], cache).position;
+  const SparseMatrix pulled = L * P;
+  for (Index v = 0; v < coarse.rows(); ++v) {
+    const Eigen::VectorXd rest = Eigen::VectorXd(coarse.row(v)) - Eigen::VectorXd(pulled.row(v));
+    ASSERT_LT(rest.cwiseAbs().maxCoeff(), 1e-12) << scheme.name << ": vertex " << v;
+  }
+}
+
+TEST(PieceRings, OfAUsersSchemeThatReachesFar) {
+  const Scheme<double> scheme = far_reaching();
+  EXPECT_GT(piece_rings(scheme), 3);
+  expect_limit_of_children(scheme, torus(9, 7));
+  expect_limit_of_children(scheme, quads_from_triangles(bipyramid(5)));
+  expect_limit_of_children(scheme, grid(6, 5));
+}
+
+TEST(PieceRings, AreThoseOfTheSupport) {
+  // The points of a face after some levels depend on nothing else.
+  for (const TestedScheme& tested : schemes_and_degrees()) {
+    const Scheme<double> scheme = tested.scheme();
+    if (scheme.is_dual() || scheme.period > 1) continue;
+    const int rings = piece_rings(scheme);
+    const Mesh mesh = takes_triangles(scheme) ? triangle_torus(13, 12) : torus(13, 12);
+    const std::vector<Level> levels = refine(scheme, mesh, 2 * scheme.period);
+    const SparseMatrix P = refinement_matrix(levels);
+    PieceWalker walker;
+    const Topology& t = levels[0].topology();
+    const Piece piece{takes_triangles(scheme) ? Piece::Kind::triangle : Piece::Kind::quad, t.first(Face{0})};
+    std::vector<Index> points = walker.walk(t, levels[0].sharpness, piece, rings, 0).vertices;
+    std::sort(points.begin(), points.end());
+    const Topology& fine = levels.back().topology();
+    for (Index f = 0; f < fine.num_faces(); ++f) {
+      Index parent = f;
+      for (size_t k = levels.size(); k-- > 1;)
+        for (auto step = levels[k].steps.rbegin(); step != levels[k].steps.rend(); ++step)
+          parent = step->face_parent[parent];
+      if (parent != 0) continue;
+      for (const Index v : fine.vertices(Face{f}))
+        for (SparseMatrix::InnerIterator it(P, v); it; ++it)
+          if (it.value() != 0)
+            ASSERT_TRUE(std::binary_search(points.begin(), points.end(), Index(it.col()))) << scheme.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sublimit::testing
