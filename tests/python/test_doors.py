@@ -120,6 +120,7 @@ WORDS = [
     Row("sample", "at", "places", "face u v", "arrays as NumPy has them; C++ has a list of places"),
     Row("sample", "grid", "LimitSurface.grid", None, "NumPy makes grids"),
     Row("sample", "random seed clamp", None, None, "places are made by the caller"),
+    Row("sample", "explain", "LimitSurface.explain", "LimitSurface.explain", "of one place, nothing is written"),
     Row("sample", "curvature", "curvature()", "Samples.curvature", "of samples that exist"),
     Row("sample", "closed", "LimitCurve.LimitCurve", "LimitCurve()", "of polygons, which have a class of their own"),
     Row("sample", "curves", "Construction.curves", "Construction.curves", "of what `construct` makes"),

@@ -27,7 +27,7 @@ const MaySkip may_skip[] = {
       "lib/fit/shared_meshes_fit_test.cpp", "lib/fit/shared_meshes_polygons_test.cpp",
       "lib/primvar/opensubdiv_face_varying_test.cpp", "lib/shared_meshes_test.cpp",
       "stencils/report/asset/asset_shared_meshes_test.cpp", "stencils/bake/bake_test.cpp",
-      "stencils/cli/cli_found_limits_test.cpp", "stencils/cli/cli_found_test.cpp",
+      "stencils/bake/one_origin_test.cpp", "stencils/cli/cli_found_limits_test.cpp", "stencils/cli/cli_found_test.cpp",
       "stencils/distributed/ranks_test.cpp", "stencils/gpu/baked_tables_test.cpp"}},
     {"a file system of 64 KB, mounted for one job, takes rights that containers may withhold",
      {"stencils/distributed/failures_test.cpp"}},

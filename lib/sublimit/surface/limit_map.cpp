@@ -11,6 +11,7 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/limit/detail/limit_masks.h"
+#include "sublimit/neighborhood/piece_rows.h"
 #include "sublimit/scheme/detail/check_scheme.h"
 #include "sublimit/scheme/detail/made_by.h"
 #include "sublimit/source/detail/derivative_order.h"
@@ -136,7 +137,7 @@ RowMatrix LimitMap::Parts::tangents_on_side(const PieceType& type, const PieceCo
   return piece_rows(type, inside, 1).tangents;
 }
 
-LimitStencil LimitMap::Parts::stencil(Found found) const {
+LimitStencil LimitMap::Parts::stencil(Found found, std::optional<LimitRows::Row> position) const {
   LimitStencil result;
   result.status = found.status;
   // Position, derivatives, tangents, one below the other: over the piece's vertices, slot 0 with what makes the sums
@@ -151,6 +152,7 @@ LimitStencil LimitMap::Parts::stencil(Found found) const {
   if (own_tangents.rows() > 0) W.block(num_weights, 1, own_tangents.rows(), slots - 1) = own_tangents;
   W.col(0) = -W.rowwise().sum();
   W(0, 0) += 1;
+  if (position) W.row(0).setZero();
   Eigen::Index column = slots;
   for (size_t i = 0; i < found.tangents.size(); ++i, ++row)
     for (const auto& [v, weight] : found.tangents[i]) {
@@ -174,6 +176,8 @@ LimitStencil LimitMap::Parts::stencil(Found found) const {
       for (SparseMatrix::InnerIterator it(prepared->S, found.vertices[j]); it; ++it)
         terms.push_back({static_cast<Index>(it.col()), j, it.value()});
   }
+  if (position)
+    for (const auto& [vertex, weight] : *position) terms.push_back({vertex, columns, weight});
   std::stable_sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.vertex < b.vertex; });
   Eigen::MatrixXd sums(W.rows(), terms.size());
   for (const Term& term : terms) {
@@ -181,7 +185,11 @@ LimitStencil LimitMap::Parts::stencil(Found found) const {
       result.vertices.push_back(term.vertex);
       sums.col(Eigen::Index(result.vertices.size()) - 1).setZero();
     }
-    sums.col(Eigen::Index(result.vertices.size()) - 1) += term.factor * W.col(term.column);
+    auto sum = sums.col(Eigen::Index(result.vertices.size()) - 1);
+    if (term.column == columns)
+      sum[0] = term.factor;
+    else
+      sum += term.factor * W.col(term.column);
   }
   const auto n = static_cast<Eigen::Index>(result.vertices.size());
   result.weights = sums.topLeftCorner(num_weights, n);
@@ -198,7 +206,7 @@ std::unique_ptr<BoundSource> LimitMap::bound(const Points& points) const& {
 LimitStencil LimitMap::stencil(const Place& place, int order) const {
   check_order(order);
   check_inside(addresses(), place);
-  return parts_->stencil(parts_->find(place, order));
+  return parts_->stencil(parts_->find(place, order), parts_->vertex_position(parts_->target(place)));
 }
 
 void LimitMap::prepare() const { parts_->pieces(); }

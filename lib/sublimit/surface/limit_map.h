@@ -13,9 +13,11 @@
 // neighbourhood.
 #include <Eigen/Geometry>
 
+#include <complex>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,6 +28,36 @@ namespace sublimit {
 
 class LimitCache;
 class LimitPatches;
+
+/// The way to the limit at a place, from the face down to a polynomial or to a corner whose neighbourhood repeats
+/// itself: for people who debug a scheme, and for teachers.
+struct [[nodiscard]] LimitPath {
+  /// A piece of a level, and which of its children has the place.
+  struct Step {
+    int level = 0;         ///< number of the level
+    std::string piece;     ///< "quadrilateral", "triangle", "corner of a face" (dual schemes), "corner of a polygon"
+    double u = 0, v = 0;   ///< the place in the piece
+    Index num_points = 0;  ///< number of points of the level that the piece depends on
+    int child = -1;        ///< number of the child that has the place; -1 for the last piece
+    int times = 1;         ///< number of levels that the step goes down, if the child is like its parent
+  };
+  /// What gives the limit in the last piece.
+  enum class End {
+    polynomial,  ///< a polynomial of degree `degree`
+    corner,      ///< an eigenvector of the neighbourhood of a corner, which repeats itself
+  };
+  std::vector<Step> steps;  ///< at least one
+  End end = End::polynomial;
+  int degree = 0;  ///< of the polynomial: in u and in v, or in both together if `is_total`
+  bool is_total = false;
+  /// Eigenvalues at the corner by descending modulus, of a matrix between all points that its piece depends on; empty
+  /// for a polynomial, and if the matrix is too large.
+  std::vector<std::complex<double>> spectrum;
+  /// The vertex of the level that the place is, whose limit gives the position; -1: none.
+  Index vertex = -1;
+  std::string rule;      ///< of that vertex: "smooth", "dart", "crease" or "corner"
+  LimitStencil stencil;  ///< the weights, as `stencil` returns them
+};
 
 /// The limit of a mesh without points: connectivity, tags and scheme. It never changes: threads may share it, and
 /// copies share all that it consists of.
@@ -56,6 +88,9 @@ class LimitMap : public LinearSource {
   FaceCount faces() const override { return addresses(); }
   FaceLengths lengths(Index address) const override;
   LimitStencil stencil(const Place& place, int order = 0) const override;
+  /// Returns how the stencil of a place comes about.
+  /// @throws as `stencil`
+  LimitPath explain(const Place& place, int order = 0) const;
   /// Returns points of the surface with derivatives and normals; in parallel.
   /// @param points   control points, #V x 3
   /// @param normals  compute normals too, if order >= 1

@@ -84,6 +84,10 @@ class LimitSurface : public BoundSource {
     return stencils(std::span(places.begin(), places.size()), derivatives);
   }
 
+  /// Returns how the limit at a place comes about: pieces, blocks, polynomial or eigenvector, weights.
+  /// @throws InvalidParameter  a place on no face, parameters outside of it
+  LimitPath explain(const Place& place) const { return map().explain(place); }
+
   /// Returns nearest points; include search/closest_point.h, whose `closest` it calls.
   ClosestPoints closest(const Points& points) const;
   ClosestPoints closest(const Points& points, const ClosestPointOptions& options) const;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Limit surfaces: points with derivatives and stencils anywhere, closest points, rays, triangles.
+#include <pybind11/complex.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -111,6 +112,43 @@ py::tuple stencils(const Source& surface, const Array<Index>& faces, const Array
   py::list matrices;
   for (SparseMatrix& matrix : found.matrices) matrices.append(csr(std::move(matrix)));
   return py::make_tuple(matrices, numbers(found.status));
+}
+
+const char* word(LimitPath::End end) { return end == LimitPath::End::polynomial ? "polynomial" : "corner"; }
+
+py::dict explain(const Surface& surface, Index face, double u, double v) {
+  const LimitPath path = without_gil([&] {
+    const Place place{face, u, v};
+    check_inside(surface.surface().faces(), place);
+    return surface.limit_surface().explain(place);
+  });
+  py::list steps;
+  for (const LimitPath::Step& step : path.steps) {
+    py::dict one;
+    one["level"] = step.level;
+    one["piece"] = step.piece;
+    one["u"] = step.u;
+    one["v"] = step.v;
+    one["num_points"] = step.num_points;
+    one["child"] = step.child;
+    one["times"] = step.times;
+    steps.append(std::move(one));
+  }
+  const LimitStencil& stencil = path.stencil;
+  std::vector<double> weights(stencil.vertices.size());
+  for (size_t i = 0; i < weights.size(); ++i) weights[i] = stencil.weights(0, Eigen::Index(i));
+  py::dict all;
+  all["steps"] = std::move(steps);
+  all["end"] = word(path.end);
+  all["degree"] = path.degree;
+  all["is_total"] = path.is_total;
+  all["spectrum"] = path.spectrum;
+  all["vertex"] = path.vertex;
+  all["rule"] = path.rule;
+  all["status"] = name(stencil.status);
+  all["vertices"] = array(std::vector<Index>(stencil.vertices));
+  all["weights"] = array(std::move(weights));
+  return all;
 }
 
 py::array_t<double> column(const Eigen::VectorXd& values) {
@@ -287,6 +325,7 @@ void add_surfaces(py::module_& m) {
             return std::make_shared<Surface>(s.limit_surface().with(points(given)));
           },
           py::arg("points"))
+      .def("explain", &explain, py::arg("face"), py::arg("u"), py::arg("v"))
       .def("tessellate", &tessellate_surface, py::arg("chord"), py::arg("angle"), py::arg("most"), py::arg("rates"),
            py::arg("normals"), py::arg("threads"));
   py::class_<PatchSurfaces, Source, std::shared_ptr<PatchSurfaces>>(m, "Patches")

@@ -428,6 +428,36 @@ class LimitSurface(Source):
         surface._core = self._core.with_points(arrays.floats(points, "points", shape, f"({shape[0]} control points, 3)"))
         return surface
 
+    def explain(self, face: int, u: float, v: float) -> dict[str, Any]:
+        """Returns how the limit at a place comes about, as `sublimit sample --explain` prints it.
+
+        Parameters
+        ----------
+        face, u, v : number of a face, and parameters in it
+
+        Returns
+        -------
+        dict
+            ``steps``, a list of pieces from level to level: ``level``, ``piece``, ``u``, ``v``, ``num_points`` that it
+            depends on, ``child`` that has the place (-1 for the last piece), ``times`` that the step is repeated; ``end``:
+            ``"polynomial"`` of ``degree`` in each parameter (in both together if ``is_total``), or ``"corner"``, an
+            eigenvector of a neighbourhood that repeats itself, with its ``spectrum``; ``vertex``, whose limit gives the
+            position (-1: none), and its ``rule``; ``status``; ``vertices`` and ``weights`` of the position.
+
+        Raises
+        ------
+        InvalidParameter
+            A face that does not exist, parameters outside of it or not finite.
+
+        Examples
+        --------
+        >>> import sublimit
+        >>> square = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+        >>> sublimit.LimitSurface(square, "bilinear").explain(0, 0.5, 0.25)["weights"]
+        array([0.375, 0.375, 0.125, 0.125])
+        """
+        return self._core.explain(face, u, v)
+
     def tessellate(self, chord: float, *, angle: float = 0, max_triangles: int = 1 << 24, rates: Any = None,
                    normals: bool = False, threads: int = 0) -> Tessellation:
         """Returns triangles within a proved distance of the surface, without cracks. Holes are left out.

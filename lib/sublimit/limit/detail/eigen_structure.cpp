@@ -324,9 +324,17 @@ Eigen::VectorXd limit_weights(const Eigen::MatrixXd& A) {
   equations.row(size).setOnes();
   const Eigen::VectorXd right = Eigen::VectorXd::Unit(size + 1, size);
   const PivotedQr qr(equations);
-  Eigen::VectorXd l = qr.solve(right);
-  l += qr.solve(right - equations * l);  // one step of refinement: the last digits
-  if (qr.rank() < size || (equations * l - right).norm() > 1e-10)
+  // Refined in more digits than are kept, so that they are the same in whichever order the points come.
+  using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  Wide exact = equations.cast<long double>();
+  exact.topRows(size) = A.transpose().cast<long double>() - Wide::Identity(size, size);
+  Wide wide = Wide::Zero(size, 1);
+  for (int step = 0; step < 4; ++step) {
+    const Wide rest = right.cast<long double>() - exact * wide;
+    wide += Eigen::MatrixXd(qr.solve(rest.cast<double>())).cast<long double>();
+  }
+  const Eigen::VectorXd l = wide.cast<double>();
+  if (qr.rank() < size || !((equations * l - right).norm() <= 1e-10))
     throw AnalysisError(std::string(local_divergence) + ": eigenvalue 1 is not simple");
   const Eigen::VectorXcd values = size > 1 ? eigenvalues(A) : Eigen::VectorXcd::Ones(1);
   int at_one = 0;

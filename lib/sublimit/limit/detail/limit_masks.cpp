@@ -230,6 +230,20 @@ LimitMasks stationary_masks(const SparseMatrix& A, const CanonicalNeighborhood& 
   return masks;
 }
 
+/// A mask over the last neighbourhood of a path as one over the first. Sums are wider than what is kept, so that the
+/// order of the points does not matter.
+VectorXd pulled_back(const VectorXd& mask, const std::deque<SparseMatrix>& path) {
+  using Wide = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+  Wide weights = mask.cast<long double>();
+  for (auto matrix = path.rbegin(); matrix != path.rend(); ++matrix) {
+    Wide sums = Wide::Zero(matrix->cols());
+    for (Eigen::Index row = 0; row < weights.size(); ++row)
+      for (SparseMatrix::InnerIterator it(*matrix, row); it; ++it) sums[it.col()] += weights[row] * it.value();
+    weights = std::move(sums);
+  }
+  return weights.cast<double>();
+}
+
 }  // namespace
 
 LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood& type) {
@@ -249,9 +263,7 @@ LimitMasks limit_masks(const Scheme<double>& scheme, const CanonicalNeighborhood
     if (step.child.signature() == current.signature()) {
       LimitMasks masks = stationary_masks(step.matrix, current);
       masks.steps = k;
-      const auto pull_back = [&](VectorXd& mask) {
-        for (auto matrix = path.rbegin(); matrix != path.rend(); ++matrix) mask = VectorXd(matrix->transpose() * mask);
-      };
+      const auto pull_back = [&](VectorXd& mask) { mask = pulled_back(mask, path); };
       pull_back(masks.position);
       for (Side& side : masks.sides) {
         pull_back(side.tangent1);

@@ -19,4 +19,10 @@ const LimitRows* CornerLimits::at(const Centre& centre) const {
   return limit ? &*limit : nullptr;
 }
 
+std::optional<LimitRows::Row> CornerLimits::position(HalfEdge corner) const {
+  const LimitRows* const limit = at(first_side(level_, corner));
+  if (!limit) return std::nullopt;
+  return limit->position();
+}
+
 }  // namespace sublimit

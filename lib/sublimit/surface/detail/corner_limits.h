@@ -20,6 +20,9 @@ class CornerLimits {
   /// Returns the limit at a centre, or null if there is none. For a vertex it is that of the side with the face
   /// of `centre.start`.
   const LimitRows* at(const Centre& centre) const;
+  /// Returns the weights of the limit position of a corner's vertex, on the sheet of its face: those of
+  /// `limit_matrices`, which at a vertex of several sheets has the first. Nothing if there is no limit.
+  std::optional<LimitRows::Row> position(HalfEdge corner) const;
 
  private:
   const Level& level_;

@@ -6,6 +6,7 @@
 
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
+#include "sublimit/neighborhood/vertex_sides.h"
 #include "sublimit/scheme/detail/made_by.h"
 
 namespace sublimit {
@@ -75,6 +76,7 @@ LimitMap::Parts::Parts(const Scheme<double>& s, Level l, std::shared_ptr<LimitCa
     : scheme(without_preparation(check_scheme(s))),
       level(std::move(l)),
       prepared(prepared_level(s, level)),
+      preparing(prepared ? std::optional(s) : std::nullopt),
       addresses(level.topology(), scheme.face_size() == 3),
       types(dictionary(scheme, level, std::move(shared))),
       corners(*types, base()) {
@@ -161,6 +163,39 @@ std::optional<Centre> LimitMap::Parts::centre(const Target& target) const {
       if (p.u == 0 && p.v1 == 0 && !exists(t.twin(t.prev(h)))) return Centre{Of::border, t.prev(h)};
       return std::nullopt;
   }
+}
+
+std::vector<LimitRows> LimitMap::Parts::found_control_limits() const {
+  const Index count = level.topology().num_vertices();
+  std::vector<LimitRows> limits(static_cast<size_t>(count));
+  std::vector<Index> vertices;
+  std::vector<Centre> centres;
+  for (Index v = 0; v < count; ++v)
+    if (!level.topology().is_isolated(Vertex{v})) {
+      vertices.push_back(v);
+      centres.push_back(first_side(level, level.topology().outgoing(Vertex{v})));
+    }
+  try {
+    LimitCache cache(*preparing);
+    std::vector<LimitRows> rows = limit_rows(level, cache, centres);
+    for (size_t i = 0; i < rows.size(); ++i) limits[size_t(vertices[i])] = std::move(rows[i]);
+  } catch (const AnalysisError&) {
+    // A vertex has no limit: all positions are those of pieces.
+  }
+  return limits;
+}
+
+std::optional<LimitRows::Row> LimitMap::Parts::vertex_position(const Target& target) const {
+  const std::optional<Centre> at = centre(target);
+  if (!at || at->kind != Centre::Kind::vertex) return std::nullopt;
+  if (!prepared) return corners.position(at->start);
+  const Refinement& step = prepared->steps[0];
+  const Vertex v = step.topology.tail(at->start);
+  if (step.origin(v) != Refinement::Origin::vertex) return std::nullopt;
+  const std::vector<LimitRows>& limits = control_limits_.get([this] { return found_control_limits(); });
+  const LimitRows& limit = limits[size_t(step.parent(v))];
+  if (limit.rows.size() == 0) return std::nullopt;
+  return limit.position();
 }
 
 LimitMap::Parts::Regular LimitMap::Parts::found_regular() const {

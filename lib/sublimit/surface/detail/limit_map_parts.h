@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "sublimit/base/detail/found_once.h"
+#include "sublimit/neighborhood/piece_rows.h"
 #include "sublimit/neighborhood/regular_faces.h"
 #include "sublimit/surface/detail/corner_limits.h"
 #include "sublimit/surface/detail/patch_tree.h"
@@ -29,6 +30,7 @@ struct LimitMap::Parts {
   /// The level that has the pieces, if a preparation step refines `level` first; its S is over the vertices of
   /// `level`.
   std::optional<Level> prepared;
+  std::optional<Scheme<double>> preparing;  ///< the scheme with its preparation, if that has made `prepared`
   /// Returns the level that has the pieces.
   const Level& base() const { return prepared ? *prepared : level; }
   Addresses addresses;
@@ -66,6 +68,11 @@ struct LimitMap::Parts {
   /// Returns the centre at a place: a vertex of the level, the middle of a face, or (dual schemes) the middle
   /// of a border edge. Nothing elsewhere.
   std::optional<Centre> centre(const Target& target) const;
+
+  /// Returns the weights of the limit position of the control vertex that a place is, over the vertices of `level`: the
+  /// same bits as in `limit_matrices`, whichever face has the place. Nothing at other places, and where there is no
+  /// limit.
+  std::optional<LimitRows::Row> vertex_position(const Target& target) const;
 
   /// Returns the type of a piece, and in `vertices` the points it depends on, by slot.
   /// @throws AnalysisError  no limit
@@ -105,7 +112,8 @@ struct LimitMap::Parts {
   Found find(const Target& at, int order, const PieceType& type, std::vector<Index> vertices,
              KnownRows* known = nullptr) const;
   /// Converts to a stencil over the vertices of `level`, ascending, without zero weights.
-  LimitStencil stencil(Found found) const;
+  /// @param position  weights of the position over the vertices of `level`, if they are known (`vertex_position`)
+  LimitStencil stencil(Found found, std::optional<LimitRows::Row> position = {}) const;
   /// Computes row i of `out` from the stencil of a place.
   void evaluate_row(const Points& points, const Place& place, int order, bool normals, LimitSamples& out,
                     std::int64_t i, KnownRows* known = nullptr) const;
@@ -170,6 +178,9 @@ struct LimitMap::Parts {
   }
   /// Returns the error for a piece without a limit.
   NoLimit without_limit(const Piece& piece, const std::string& why) const;
+  /// Returns the limit positions of the vertices of `level`, with preparation; empty rows where there is none.
+  std::vector<LimitRows> found_control_limits() const;
+  ComputedOnce<std::vector<LimitRows>> control_limits_;  // used only with a preparation
   ComputedOnce<Regular> regular_;
   ComputedOnce<Pieces> pieces_;
 };

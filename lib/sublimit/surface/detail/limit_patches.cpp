@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "sublimit/base/detail/parallel_for.h"
+#include "sublimit/neighborhood/piece_rows.h"
 
 // The loops below are compiled for wide registers too, and the machine chooses; none of them fuses multiplications, so
 // all give the same bits.

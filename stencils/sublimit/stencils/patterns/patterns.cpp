@@ -261,6 +261,11 @@ RowMatrix Patterns::made_rows(const PieceType& type, int levels, Ends ends) {
 
 const RowMatrix& Patterns::whole_rows(const Pattern& pattern, const Example& example, int levels, Ends ends) {
   return rows_.get({pattern.number, levels, ends}, [&] {
+    // Limits of vertices have the weights that they have everywhere.
+    if (levels == 0 && ends == Ends::limits && pattern.kind != Piece::Kind::corner)
+      if (std::optional<LimitBlock> block =
+              limits_of_type(types_, type(pattern, example), {.lattice = lattice_of(scheme_, 0), .place = {}}))
+        return std::move(block->weights);
     const RowMatrix& D = differences(type(pattern, example), levels, ends);
     RowMatrix made(D.rows(), D.cols() + 1);
     made.rightCols(D.cols()) = D;

@@ -96,7 +96,10 @@ std::optional<Patterns::LimitBlock> limits_of_type(const std::shared_ptr<LimitCa
       add(q, found.vertices[0], (q == 0 ? 1 : 0) - weights.sum());
     };
     const RowMatrix& rows = found.rows.rows;
-    for (Eigen::Index q = 0; q < rows.rows(); ++q) add_differences(q, rows.row(q));
+    const auto position = surface.vertex_position(target);
+    if (position)
+      for (const auto& [vertex, weight] : *position) add(0, vertex, weight);
+    for (Eigen::Index q = position ? 1 : 0; q < rows.rows(); ++q) add_differences(q, rows.row(q));
     if (derivatives == 0 || rows.rows() > 1) return;
     // Where there are no natural derivatives, two tangents that span the plane.
     const RowMatrix& tangents = found.rows.tangents;

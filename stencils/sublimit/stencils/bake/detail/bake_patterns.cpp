@@ -27,6 +27,10 @@ std::optional<Baked> bake_corners_or_none(Patterns& patterns, const Level& contr
 std::optional<Baked> bake_by_patterns(Patterns& patterns, const Level& control, const BakeRequest& request,
                                       const PatternBake& how) {
   if (!control.intervals.empty()) return std::nullopt;  // lattices have new knots in the middle
+  // Limits of vertices have the weights of `limit_matrices`. Types have the same where masks of one ring are enough;
+  // elsewhere refinement sums in the order of the mesh.
+  const bool at_vertices = request.rows == TableRows::limit && request.level == 0 && request.derivatives == 0;
+  if (how.must_pay && at_vertices && !patterns.scheme().has_one_ring_limits()) return std::nullopt;
   std::optional<Baked> baked;
   if (request.rows == TableRows::level || request.rows == TableRows::limit)
     baked = patterns.scheme().is_dual() ? bake_corners_or_none(patterns, control, request, how)
