@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include "../cli/support/memory_limit.h"
+#include "../cli/support/mesh_options.h"
 #include "commands.h"
-#include "sublimit/base/detail/rule_words.h"
-#include "sublimit/base/error.h"
-#include "sublimit/stencils/files/rule_of_word.h"
 
 namespace sublimit::cli_mpi {
 
@@ -20,23 +17,13 @@ void add_run(CLI::App& command, Common& common) {
 
 void add_mesh(CLI::App& command, Common& common) {
   MeshRequest& request = common.request;
-  command
-      .add_option("MESH", common.mesh,
-                  "Control mesh: .obj (with tags), binary .ply, or .safetensors with positions, face_vertices[, "
-                  "face_sizes, creases, crease_sharpness, corners, corner_sharpness, holes]; MESH.json beside it "
-                  "overrides tags")
-      ->required();
-  command.add_option("-s,--scheme", request.scheme, "Scheme (see `sublimit schemes`)")->required();
-  command.add_option("--boundary", request.boundary, "Boundary rule (default: the file's tag, else edge-and-corner)");
-  command.add_option("--creasing", request.creasing, "How sharpness decays (default: the file's tag, else uniform)");
-  command.add_option("--triangles", request.triangles,
-                     "Catmull-Clark next to triangles (default: the file's tag, else catmark)");
-  command.add_option("--option", common.options, "An option of the scheme, name=value; may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_flag("--triangulate", request.triangulate,
-                   "First cut every face into triangles, a fan from its first corner; tags are kept");
-  command.add_flag("--no-creases", request.no_creases, "First drop the crease and corner tags");
+  cli::add_mesh_options(
+      command,
+      {common.mesh, request.scheme, request.boundary, request.creasing, request.triangles, nullptr, common.options,
+       request.triangulate, request.no_creases},
+      ".obj (with tags), binary .ply, or .safetensors with positions, face_vertices[, face_sizes, creases, "
+      "crease_sharpness, corners, corner_sharpness, holes]",
+      true);
   add_run(command, common);
 }
 
@@ -60,8 +47,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 Told begin(const Ranks& ranks, const Common& common) {
   ranks.together([&] { cli::limit_memory(common.memory_limit); });
-  static std::unique_ptr<tbb::global_control> threads;
-  threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
+  cli::limit_threads(common.threads);
   if (!ranks.is_first() || common.quiet || !::isatty(STDERR_FILENO)) return [](const std::string&) {};
   return [](const std::string& what) { fmt::print(stderr, "sublimit-mpi: {} ...\n", what); };
 }
@@ -69,12 +55,7 @@ Told begin(const Ranks& ranks, const Common& common) {
 MeshRequest checked_request(const Ranks& ranks, const Common& common) {
   MeshRequest request = common.request;
   ranks.together([&] {
-    for (const std::string& text : common.options) {
-      const size_t equals = text.find('=');
-      if (equals == std::string::npos || equals == 0)
-        throw InvalidOption("--option " + text + ": write it as name=value");
-      request.options[text.substr(0, equals)] = text.substr(equals + 1);
-    }
+    request.options = cli::scheme_options(common.options);
     if (!request.triangles.empty()) request.options["triangles"] = request.triangles;
     scheme_job(request);
   });

@@ -2,6 +2,7 @@
 // info: counts of a mesh, and how its parts would be.
 #include <fmt/core.h>
 
+#include "../cli/support/mesh_facts.h"
 #include "commands.h"
 #include "sublimit/distributed/jobs/info_job.h"
 
@@ -13,37 +14,18 @@ struct InfoOptions {
   bool as_json = false;
 };
 
-std::string to_text(const SpreadInfo::Histogram& histogram) {
-  std::string text;
-  for (const auto& [key, count] : histogram) text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", key, count);
-  return text.empty() ? "none" : text;
-}
-
 void print(const SpreadInfo& info, const std::string& name) {
-  fmt::print("{}\n", name);
-  fmt::print("  {} vertices, {} edges, {} faces; Euler characteristic {}, {} component(s)\n", info.vertices, info.edges,
-             info.faces, info.euler_characteristic, info.components);
-  fmt::print("  face sizes         {}\n", to_text(info.face_sizes));
-  if (info.why_not.empty())
-    fmt::print("  addresses          faces 0 to {} of `sample`: {}\n", info.addresses - 1,
-               info.triangles ? "the triangles" : "a quad is one, another polygon one a corner");
-  fmt::print("  interior valences  {}\n", to_text(info.interior_valences));
-  fmt::print("  boundary valences  {}\n", to_text(info.boundary_valences));
-  fmt::print("  boundary loops     {}\n", info.boundary_loops);
+  cli::print_counts(info, name, "sublimit-mpi");
   fmt::print("  no manifold at     {} vertices, {} edges; {} vertices are in no face\n", info.nonmanifold_vertices,
              info.nonmanifold_edges, info.isolated_vertices);
-  fmt::print("  tags               {} creases, {} corners, {} holes\n", info.creases, info.corners, info.holes);
-  fmt::print("  rules              boundary {}, creasing {}, triangles {}\n", info.boundary, info.creasing,
-             info.smooth_triangles);
-  if (!info.scheme.empty())
-    fmt::print("  {:<18} {}\n", info.scheme + ":", info.why_not.empty() ? "takes this mesh" : "no: " + info.why_not);
+  cli::print_verdict(info);
   fmt::print("  {} part{}, one a rank{}\n", info.parts, info.parts == 1 ? "" : "s",
              info.parts == 1 ? "" : ", from the least to the most:");
   fmt::print("    faces            {} to {}\n", info.part_faces.least, info.part_faces.most);
   fmt::print("    faces around     {} to {}, {} ring(s)\n", info.halo_faces.least, info.halo_faces.most, info.rings);
   fmt::print("    memory           about {:.1f} to {:.1f} MB a rank, before tables and points\n",
              double(info.part_bytes.least) / 1e6, double(info.part_bytes.most) / 1e6);
-  for (const std::string& warning : info.warnings) fmt::print("  warning: {}\n", warning);
+  cli::print_warnings(info);
 }
 
 /// @return  exit status 1 where the scheme does not take the mesh

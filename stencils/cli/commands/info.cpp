@@ -5,18 +5,13 @@
 
 #include "support/common.h"
 #include "support/free_form.h"
+#include "support/mesh_facts.h"
 #include "support/normal_surfaces.h"
 #include "support/recipes.h"
 #include "sublimit/stencils/jobs/detail/mesh_info_json.h"
 
 namespace sublimit::cli {
 namespace {
-
-std::string to_text(const MeshInfo::Histogram& histogram) {
-  std::string text;
-  for (const auto& [key, count] : histogram) text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", key, count);
-  return text.empty() ? "none" : text;
-}
 
 std::string to_text(const Eigen::Vector3d& x) { return fmt::format("({}, {}, {})", x[0], x[1], x[2]); }
 
@@ -40,30 +35,15 @@ void print(const LimitIntegrals& limit) {
 }
 
 void print(const MeshInfo& info, const std::string& name) {
-  fmt::print("{}\n", name);
-  fmt::print("  {} vertices, {} edges, {} faces; Euler characteristic {}, {} component(s)\n", info.vertices, info.edges,
-             info.faces, info.euler_characteristic, info.components);
-  fmt::print("  face sizes         {}\n", to_text(info.face_sizes));
-  if (info.why_not.empty())
-    fmt::print("  addresses          faces 0 to {} of `sublimit sample`: {}\n", info.addresses - 1,
-               info.triangles ? "the triangles" : "a quad is one, another polygon one a corner");
-  fmt::print("  interior valences  {}\n", to_text(info.interior_valences));
-  fmt::print("  boundary valences  {}\n", to_text(info.boundary_valences));
-  fmt::print("  boundary loops     {}\n", info.boundary_loops);
-  fmt::print("  tags               {} creases, {} corners, {} holes\n", info.creases, info.corners, info.holes);
-  fmt::print("  rules              boundary {}, creasing {}, triangles {}\n", info.boundary, info.creasing,
-             info.smooth_triangles);
+  print_counts(info, name, "sublimit");
   for (const MeshInfo::Channel& channel : info.channels)
     fmt::print("  face-varying       {}: {} values of {} numbers, interpolation {}\n", channel.name, channel.values,
                channel.numbers, info.face_varying);
-  if (!info.scheme.empty()) {
-    fmt::print("  {:<18} {}\n", info.scheme + ":",
-               info.why_not.empty() ? "takes this mesh" : "no: " + in_words_of_the_program(info.why_not));
-    for (size_t k = 0; k < info.predicted_bytes.size(); ++k)
-      fmt::print("    to level {}         about {:.1f} MB\n", k + 1, info.predicted_bytes[k] / 1e6);
-  }
+  print_verdict(info);
+  for (size_t k = 0; k < info.predicted_bytes.size(); ++k)
+    fmt::print("    to level {}         about {:.1f} MB\n", k + 1, info.predicted_bytes[k] / 1e6);
   if (info.limit) print(*info.limit);
-  for (const std::string& warning : info.warnings) fmt::print("  warning: {}\n", warning);
+  print_warnings(info);
   constexpr size_t most = 20;
   for (size_t i = 0; i < std::min(info.faults.size(), most); ++i) fmt::print("  fault: {}\n", info.faults[i]);
   if (info.faults.size() > most) fmt::print("  and {} faults more (--json lists all)\n", info.faults.size() - most);

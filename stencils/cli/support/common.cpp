@@ -2,22 +2,17 @@
 #include "support/common.h"
 
 #include <fmt/core.h>
-#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <memory>
-#include <span>
-#include <string_view>
 #include <utility>
 
 #include "support/curves.h"
 #include "sublimit/base/detail/followed_links.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
-#include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/io/detail/file_extension.h"
@@ -28,11 +23,6 @@
 
 namespace sublimit::cli {
 namespace {
-
-/// The words as CLI11's set of choices.
-CLI::IsMember one_of(std::span<const char* const> words) {
-  return CLI::IsMember(std::vector<std::string>(words.begin(), words.end()));
-}
 
 void list(const std::vector<std::string>& messages, const char* kind, size_t most) {
   for (size_t i = 0; i < std::min(messages.size(), most); ++i)
@@ -48,51 +38,20 @@ void add_run(CLI::App& command, Common& common) {
 }
 
 SchemeOptions given_options(const Common& common) {
-  SchemeOptions options;
-  for (const std::string& text : common.options) {
-    const size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw InvalidOption("--option " + text + ": write it as name=value");
-    if (!options.emplace(text.substr(0, equals), text.substr(equals + 1)).second)
-      throw InvalidOption("--option " + text + ": " + text.substr(0, equals) + " is given twice");
-  }
+  SchemeOptions options = scheme_options(common.options);
   if (!common.triangles.empty()) options["triangles"] = common.triangles;
   return options;
 }
 
 void limit_threads(const Common& common) {
-  static std::unique_ptr<tbb::global_control> threads;
-  if (common.threads > 0)
-    threads = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
+  if (common.threads > 0) limit_threads(common.threads);
 }
 
 void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
-  command
-      .add_option("MESH", common.mesh,
-                  "Control mesh: .obj (with tags), .ply or .off; MESH.json beside it overrides tags")
-      ->required();
-  auto* scheme = command.add_option("-s,--scheme", common.scheme, "Scheme (see `sublimit schemes`)");
-  if (scheme_required) scheme->required();
-  command.add_option("--boundary", common.boundary, "Boundary rule (default: the file's tag, else edge-and-corner)")
-      ->check(one_of(boundary_words));
-  command.add_option("--creasing", common.creasing, "How sharpness decays (default: the file's tag, else uniform)")
-      ->check(one_of(creasing_words));
-  command
-      .add_option("--triangles", common.triangles,
-                  "Catmull-Clark next to triangles (default: the file's tag, else catmark)")
-      ->check(one_of(triangles_words));
-  command
-      .add_option(
-          "--face-varying", common.face_varying,
-          "Where texture coordinates are linear, by OpenSubdiv's names (default: the file's tag, else all, which is "
-          "OpenSubdiv's default)")
-      ->check(one_of(face_varying_words));
-  command.add_option("--option", common.options, "An option of the scheme, name=value; may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_flag("--triangulate", common.triangulate,
-                   "First cut every face into triangles, a fan from its first corner; tags are kept");
-  command.add_flag("--no-creases", common.no_creases, "First drop the crease and corner tags");
+  add_mesh_options(command,
+                   {common.mesh, common.scheme, common.boundary, common.creasing, common.triangles,
+                    &common.face_varying, common.options, common.triangulate, common.no_creases},
+                   ".obj (with tags), .ply or .off", scheme_required);
   add_run(command, common);
   command.add_flag("--strict", common.strict, "Reject meshes that are accepted with a warning, naming each place");
 }
@@ -175,18 +134,6 @@ void naming_mesh(const Common& common, const std::function<void()>& body) {
   } catch (const AnalysisError& error) {
     throw AnalysisError(place + error.what());
   }
-}
-
-std::string in_words_of_the_program(std::string message) {
-  constexpr std::pair<std::string_view, std::string_view> options[] = {{"triangulate the mesh", "--triangulate"},
-                                                                       {"remove the tag", "--no-creases"},
-                                                                       {"not a clean manifold", "--strict"}};
-  for (const auto& [what, option] : options)
-    if (const size_t at = message.find(what); at != std::string::npos)
-      message.insert(at + what.size(), fmt::format(" ({})", option));
-  for (const std::string_view verb : {"`schemes`", "`info`", "`analyze`"})
-    if (const size_t at = message.find(verb); at != std::string::npos) message.insert(at + 1, "sublimit ");
-  return message;
 }
 
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions) {

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/mesh_options.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/stencils/jobs/detail/refined_job.h"
@@ -96,10 +97,6 @@ std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded
 
 /// Calls `body`, and adds the names of mesh and scheme to its errors about the mesh.
 void naming_mesh(const Common& common, const std::function<void()>& body);
-
-/// Returns a message of the library in the words of the program: with the options that remedies need, and with
-/// subcommands as they are typed ("`sublimit info`").
-std::string in_words_of_the_program(std::string message);
 
 /// Checks before any work that an output can be written: its extension, its directory, the permissions of an
 /// existing file. An empty list accepts any extension.
