@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sublimit/certificates/numbers/detail/flint_value.h"
+
 namespace sublimit {
 namespace {
 
@@ -48,12 +50,9 @@ bool looks_the_same_from_all_sectors(const LocalPatch<Algebraic>& patch, const P
 
 /// Coefficient of zeta^k of an element of the field of order p, or of the rationals.
 Algebraic coefficient(const Algebraic& e, int k) {
-  fmpq_t q;
-  fmpq_init(q);
+  FlintRatio q;
   fmpq_poly_get_coeff_fmpq(q, e.polynomial(), k);
-  Algebraic result(q);
-  fmpq_clear(q);
-  return result;
+  return Algebraic(q);
 }
 
 /// e = sum of x_j w^j, j = -2 ... 2, at n = 11: w^10 = -(1 + ... + w^9) there, and w^5 is free.

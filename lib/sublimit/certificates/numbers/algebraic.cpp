@@ -3,32 +3,38 @@
 
 #include <arb_fmpz_poly.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
+#include "sublimit/base/detail/found_once.h"
 #include "sublimit/base/error.h"
-#include "sublimit/certificates/numbers/detail/cyclotomic.h"
+#include "sublimit/certificates/numbers/detail/flint_value.h"
 
 namespace sublimit {
 namespace {
 
-/// The numerator of a polynomial over the rationals, as FLINT's functions for integers take it.
-struct Numerator {
-  fmpz_poly_t p;
-  explicit Numerator(const fmpq_poly_struct* q) {
-    fmpz_poly_init(p);
-    fmpq_poly_get_numerator(p, q);
-  }
-  ~Numerator() { fmpz_poly_clear(p); }
-};
+/// The minimal polynomial of zeta_N, computed once and valid until the program ends.
+const fmpq_poly_struct* minimal_polynomial(long order) {
+  static const FoundByKey<long, std::unique_ptr<const RationalPolynomial>> all;
+  return *all.get(order, [&] {
+    auto found = std::make_unique<RationalPolynomial>();
+    IntegerPolynomial phi;
+    fmpz_poly_cyclotomic(phi, static_cast<ulong>(order));
+    fmpq_poly_set_fmpz_poly(*found, phi);
+    return found;
+  });
+}
 
-/// p(zeta) over an integer, with the numerator replaced.
-void set_numerator(fmpq_poly_t q, const fmpz_poly_t numerator) {
-  fmpz_t denominator;
-  fmpz_init_set(denominator, fmpq_poly_denref(q));
-  fmpq_poly_set_fmpz_poly(q, numerator);
-  fmpq_poly_scalar_div_fmpz(q, q, denominator);
-  fmpz_clear(denominator);
+/// Sets q to the sum of p_i x^to(i).
+template <class To>
+void move_powers(fmpq_poly_t q, const fmpq_poly_struct* p, To to) {
+  FlintRatio c;
+  for (long i = fmpq_poly_length(p); i-- > 0;) {
+    fmpq_poly_get_coeff_fmpq(c, p, i);
+    fmpq_poly_set_coeff_fmpq(q, to(i), c);
+  }
 }
 
 long positive_remainder(long k, long n) { return (k % n + n) % n; }
@@ -37,11 +43,9 @@ long positive_remainder(long k, long n) { return (k % n + n) % n; }
 
 Algebraic::Algebraic(double value) : Algebraic() {
   if (!std::isfinite(value)) throw AnalysisError("infinity and NaN are no algebraic numbers");
-  fmpq_t q;
-  fmpq_init(q);
+  FlintRatio q;
   arf_get_fmpq(q, arb_midref(Ball(value).get()));
   fmpq_poly_set_fmpq(p_, q);
-  fmpq_clear(q);
 }
 
 Algebraic Algebraic::ratio(long p, long q) {
@@ -70,23 +74,19 @@ Algebraic Algebraic::root_of_unity(long k, long n) {
 }
 
 void Algebraic::reduce() {
-  if (order_ > 1 && fmpq_poly_length(p_) >= fmpz_poly_length(cyclotomic_polynomial(order_))) {
-    Numerator numerator(p_);
-    reduce_cyclotomic(numerator.p, order_);
-    set_numerator(p_, numerator.p);
-  }
+  if (order_ > 1)
+    if (const fmpq_poly_struct* m = minimal_polynomial(order_); fmpq_poly_length(p_) >= fmpq_poly_length(m))
+      fmpq_poly_rem(p_, p_, m);
   if (is_rational()) order_ = 1;
 }
 
 void Algebraic::lift(long order) {
   if (order == order_) return;
-  if (!is_rational()) {
-    Numerator numerator(p_);
-    fmpz_poly_inflate(numerator.p, numerator.p, static_cast<ulong>(order / order_));
-    reduce_cyclotomic(numerator.p, order);
-    set_numerator(p_, numerator.p);
-  }
-  order_ = order;
+  Algebraic r;
+  move_powers(r.p_, p_, [&](long i) { return i * (order / order_); });
+  if (!is_rational()) fmpq_poly_rem(r.p_, r.p_, minimal_polynomial(order));
+  r.order_ = order;
+  swap(r);
 }
 
 std::pair<Algebraic, Algebraic> in_one_field(const Algebraic& a, const Algebraic& b) {
@@ -98,33 +98,25 @@ std::pair<Algebraic, Algebraic> in_one_field(const Algebraic& a, const Algebraic
 }
 
 Algebraic& Algebraic::operator+=(const Algebraic& b) {
-  if (order_ == b.order_ || b.is_rational()) {
-    fmpq_poly_add(p_, p_, b.p_);
-  } else if (is_rational()) {
-    fmpq_poly_add(p_, p_, b.p_);
-    order_ = b.order_;
-  } else {
+  if (order_ != b.order_ && !is_rational() && !b.is_rational()) {
     auto [x, y] = in_one_field(*this, b);
-    fmpq_poly_add(x.p_, x.p_, y.p_);
-    swap(x);
+    return *this = std::move(x += y);
   }
-  if (is_rational()) order_ = 1;
+  fmpq_poly_add(p_, p_, b.p_);
+  order_ = is_rational() ? 1 : std::max(order_, b.order_);
   return *this;
 }
 
 Algebraic& Algebraic::operator-=(const Algebraic& b) { return *this += -b; }
 
 Algebraic& Algebraic::operator*=(const Algebraic& b) {
-  if (order_ == b.order_ || b.is_rational() || is_rational()) {
-    order_ = std::max(order_, b.order_);
-    fmpq_poly_mul(p_, p_, b.p_);
-    reduce();
-  } else {
+  if (order_ != b.order_ && !is_rational() && !b.is_rational()) {
     auto [x, y] = in_one_field(*this, b);
-    fmpq_poly_mul(x.p_, x.p_, y.p_);
-    x.reduce();
-    swap(x);
+    return *this = std::move(x *= y);
   }
+  order_ = std::max(order_, b.order_);
+  fmpq_poly_mul(p_, p_, b.p_);
+  reduce();
   return *this;
 }
 
@@ -137,16 +129,10 @@ bool operator==(const Algebraic& a, const Algebraic& b) {
 
 Algebraic Algebraic::galois(long a) const {
   if (is_rational()) return *this;
-  const Numerator numerator(p_);
-  fmpz_poly_t image;
-  fmpz_poly_init2(image, order_);
-  const long length = fmpz_poly_length(numerator.p);
-  for (long i = 0; i < length; ++i)
-    fmpz_poly_set_coeff_fmpz(image, positive_remainder(a * i, order_), numerator.p->coeffs + i);
-  reduce_cyclotomic(image, order_);
-  Algebraic r(*this);
-  set_numerator(r.p_, image);
-  fmpz_poly_clear(image);
+  Algebraic r;
+  move_powers(r.p_, p_, [&](long i) { return positive_remainder(a * i, order_); });
+  r.order_ = order_;
+  r.reduce();
   return r;
 }
 
@@ -154,38 +140,27 @@ Algebraic Algebraic::inverse() const {
   if (is_zero()) throw AnalysisError("division by zero among algebraic numbers");
   Algebraic r;
   if (is_rational()) {
-    fmpq_t q;
-    fmpq_init(q);
-    fmpq_poly_get_coeff_fmpq(q, p_, 0);
-    fmpq_inv(q, q);
-    fmpq_poly_set_fmpq(r.p_, q);
-    fmpq_clear(q);
+    fmpq_poly_inv(r.p_, p_);
     return r;
   }
-  fmpq_poly_t modulus, common, other;
-  fmpq_poly_init(modulus);
-  fmpq_poly_init(common);
-  fmpq_poly_init(other);
-  fmpq_poly_set_fmpz_poly(modulus, cyclotomic_polynomial(order_));
-  fmpq_poly_xgcd(common, r.p_, other, p_, modulus);  // the gcd is 1: the modulus is irreducible
-  fmpq_poly_clear(modulus);
-  fmpq_poly_clear(common);
-  fmpq_poly_clear(other);
+  RationalPolynomial common, other;  // the gcd is 1: the minimal polynomial is irreducible
+  fmpq_poly_xgcd(common, r.p_, other, p_, minimal_polynomial(order_));
   r.order_ = order_;
   return r;
 }
 
 ComplexBall Algebraic::enclosure() const {
   const long bits = PrecisionScope::bits();
-  const Numerator numerator(p_);
+  IntegerPolynomial numerator;
+  fmpq_poly_get_numerator(numerator, p_);
   ComplexBall r;
   if (is_rational()) {
-    if (!is_zero()) acb_set_fmpz(r.get(), numerator.p->coeffs);
+    if (!is_zero()) acb_set_fmpz(r.get(), numerator->coeffs);
   } else {
     const PrecisionScope more(bits + 2 * FLINT_BIT_COUNT(static_cast<ulong>(order_)) +
-                              std::abs(fmpz_poly_max_bits(numerator.p)));
+                              std::abs(fmpz_poly_max_bits(numerator)));
     const ComplexBall zeta = ComplexBall::root_of_unity(1, order_);
-    arb_fmpz_poly_evaluate_acb(r.get(), numerator.p, zeta.get(), PrecisionScope::bits());
+    arb_fmpz_poly_evaluate_acb(r.get(), numerator, zeta.get(), PrecisionScope::bits());
   }
   acb_div_fmpz(r.get(), r.get(), fmpq_poly_denref(p_), bits);
   return r;

@@ -8,26 +8,19 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/numbers/algebraic.h"
+#include "sublimit/certificates/numbers/detail/flint_value.h"
 
 namespace sublimit {
 namespace {
 
-struct Fraction {
-  fmpq_t q;
-  Fraction() { fmpq_init(q); }
-  ~Fraction() { fmpq_clear(q); }
-  Fraction(const Fraction&) = delete;
-  Fraction& operator=(const Fraction&) = delete;
-  std::string text() const {
-    const std::unique_ptr<char, decltype(&flint_free)> chars(fmpq_get_str(nullptr, 10, q), flint_free);
-    return chars.get();
-  }
-};
+std::string text_of(const fmpq* q) {
+  return std::unique_ptr<char, decltype(&flint_free)>(fmpq_get_str(nullptr, 10, q), flint_free).get();
+}
 
 std::string coefficient(const fmpq_poly_struct* p, long i) {
-  Fraction q;
-  fmpq_poly_get_coeff_fmpq(q.q, p, i);
-  return q.text();
+  FlintRatio q;
+  fmpq_poly_get_coeff_fmpq(q, p, i);
+  return text_of(q);
 }
 
 /// `terms`, a sum of factor * name, with signs between.
@@ -54,16 +47,16 @@ std::string as_cosine(const Algebraic& x) {
     // The highest coefficients must agree; then the rest must.
     const long top = fmpq_poly_degree(cosine.polynomial());
     if (top != fmpq_poly_degree(x.polynomial())) continue;
-    Fraction own, of_cosine;
-    fmpq_poly_get_coeff_fmpq(own.q, x.polynomial(), top);
-    fmpq_poly_get_coeff_fmpq(of_cosine.q, cosine.polynomial(), top);
-    fmpq_div(own.q, own.q, of_cosine.q);
-    const Algebraic rest = x - Algebraic(own.q) * cosine;
+    FlintRatio own, of_cosine;
+    fmpq_poly_get_coeff_fmpq(own, x.polynomial(), top);
+    fmpq_poly_get_coeff_fmpq(of_cosine, cosine.polynomial(), top);
+    fmpq_div(own, own, of_cosine);
+    const Algebraic rest = x - Algebraic(own) * cosine;
     if (!rest.is_rational()) continue;
     const long common = std::gcd(2 * k, x.order());
     const std::string turns = 2 * k == common ? "" : std::to_string(2 * k / common);
     return sum_of({{coefficient(rest.polynomial(), 0), ""},
-                   {own.text(), "cos(" + turns + "pi/" + std::to_string(x.order() / common) + ")"}});
+                   {text_of(own), "cos(" + turns + "pi/" + std::to_string(x.order() / common) + ")"}});
   }
   return "";
 }
@@ -103,10 +96,10 @@ Algebraic Algebraic::parse(std::string_view text) {
   Algebraic r;
   long i = 0;
   for (std::string word; in >> word; ++i) {
-    Fraction q;
-    if (i > order || fmpq_set_str(q.q, word.c_str(), 10) != 0 || fmpz_is_zero(fmpq_denref(q.q))) throw bad();
-    fmpq_canonicalise(q.q);
-    fmpq_poly_set_coeff_fmpq(r.p_, i, q.q);
+    FlintRatio q;
+    if (i > order || fmpq_set_str(q, word.c_str(), 10) != 0 || fmpz_is_zero(fmpq_denref(q))) throw bad();
+    fmpq_canonicalise(q);
+    fmpq_poly_set_coeff_fmpq(r.p_, i, q);
   }
   if (i == 0 || (order == 1 && i > 1)) throw bad();
   r.order_ = order;

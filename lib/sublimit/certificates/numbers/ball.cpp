@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "sublimit/base/error.h"
+#include "sublimit/certificates/numbers/detail/flint_value.h"
 
 namespace sublimit {
 
@@ -18,12 +19,9 @@ using FlintText = std::unique_ptr<char, FlintFree>;
 
 /// The end of a ball as a double, rounded outwards.
 double end_of(const arb_t x, bool upper) {
-  arf_t end;
-  arf_init(end);
+  FlintValue<arf_struct, arf_init, arf_clear> end;
   (upper ? arb_get_ubound_arf : arb_get_lbound_arf)(end, x, 64);
-  const double value = arf_get_d(end, upper ? ARF_RND_CEIL : ARF_RND_FLOOR);
-  arf_clear(end);
-  return value;
+  return arf_get_d(end, upper ? ARF_RND_CEIL : ARF_RND_FLOOR);
 }
 
 }  // namespace
@@ -81,12 +79,10 @@ Ball intersection(const Ball& a, const Ball& b) {
 Ball Number<Ball>::ratio(int p, int q) { return Ball(p) / Ball(q); }
 
 Ball Number<Ball>::cos_2pi(int k, int n) {
-  fmpq_t turns;  // cos(pi x)
-  fmpq_init(turns);
+  FlintRatio turns;  // cos(pi x)
   fmpq_set_si(turns, 2L * k, n);
   Ball r;
   arb_cos_pi_fmpq(r.get(), turns, PrecisionScope::bits());
-  fmpq_clear(turns);
   return r;
 }
 

@@ -2,16 +2,15 @@
 #include "sublimit/certificates/numbers/complex_ball.h"
 
 #include "sublimit/base/error.h"
+#include "sublimit/certificates/numbers/detail/flint_value.h"
 
 namespace sublimit {
 
 ComplexBall ComplexBall::root_of_unity(long k, long n) {
-  fmpq_t turns;  // exp(pi i x)
-  fmpq_init(turns);
+  FlintRatio turns;  // exp(pi i x)
   fmpq_set_si(turns, 2 * (k % n), static_cast<ulong>(n));
   ComplexBall r;
   arb_sin_cos_pi_fmpq(acb_imagref(r.z_), acb_realref(r.z_), turns, PrecisionScope::bits());
-  fmpq_clear(turns);
   return r;
 }
 

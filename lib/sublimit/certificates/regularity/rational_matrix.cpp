@@ -3,6 +3,8 @@
 
 #include <flint/fmpq_mat.h>
 
+#include "sublimit/certificates/numbers/detail/flint_value.h"
+
 namespace sublimit {
 namespace {
 
@@ -37,12 +39,9 @@ std::vector<Eigen::Index> reduce_rows(RationalMatrix& M) {
 
 bool is_singular(const RationalMatrix& M) {
   const FlintMatrix square(M);
-  fmpq_t determinant;
-  fmpq_init(determinant);
+  FlintRatio determinant;
   fmpq_mat_det(determinant, square.m);
-  const bool is_zero = fmpq_is_zero(determinant);
-  fmpq_clear(determinant);
-  return is_zero;
+  return fmpq_is_zero(determinant);
 }
 
 }  // namespace sublimit

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/certificates/regularity/rational_schemes.h"
 
+#include "sublimit/certificates/numbers/detail/flint_value.h"
+
 namespace sublimit {
 
 template std::vector<Scheme<Rational>> all_schemes<Rational>();
@@ -13,11 +15,9 @@ std::optional<RegularMask<Rational>> rational_mask(const RegularMask<Algebraic>&
   RegularMask<Rational> result{.triangular = mask.triangular, .dual = mask.dual, .dilation = mask.dilation};
   for (const auto& [key, weight] : mask.weights) {
     if (!weight.is_rational()) return std::nullopt;
-    fmpq_t ratio;
-    fmpq_init(ratio);
+    FlintRatio ratio;
     fmpq_poly_get_coeff_fmpq(ratio, weight.polynomial(), 0);
     result.weights.emplace(key, ratio);
-    fmpq_clear(ratio);
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sublimit/base/error.h"
+#include "sublimit/certificates/numbers/detail/flint_value.h"
 
 namespace sublimit {
 namespace {
@@ -19,15 +20,9 @@ ComplexBall enclosed(const Algebraic& value, long bits) {
 
 /// The simplest fraction in a real ball: what a rational root must be, once the ball is small.
 Algebraic simplest_fraction(const Ball& ball) {
-  fmpz_t low, high, exponent;
-  fmpz_init(low);
-  fmpz_init(high);
-  fmpz_init(exponent);
+  FlintInteger low, high, exponent;
   arb_get_interval_fmpz_2exp(low, high, exponent, ball.get());
-  fmpq_t a, b, middle;
-  fmpq_init(a);
-  fmpq_init(b);
-  fmpq_init(middle);
+  FlintRatio a, b, middle;
   const auto set = [&](fmpq_t q, const fmpz_t mantissa) {
     fmpq_set_fmpz(q, mantissa);
     const long shift = fmpz_get_si(exponent);
@@ -39,14 +34,7 @@ Algebraic simplest_fraction(const Ball& ball) {
   set(a, low);
   set(b, high);
   fmpq_simplest_between(middle, a, b);
-  const Algebraic result(middle);
-  fmpq_clear(a);
-  fmpq_clear(b);
-  fmpq_clear(middle);
-  fmpz_clear(low);
-  fmpz_clear(high);
-  fmpz_clear(exponent);
-  return result;
+  return Algebraic(middle);
 }
 
 Polynomial linear(const Algebraic& root) { return Polynomial({-root, 1}); }

@@ -2,30 +2,27 @@
 // Characteristic polynomials: by FLINT over the rationals, else by Faddeev and LeVerrier; the matrices are small.
 #include <flint/fmpq_mat.h>
 
+#include "sublimit/certificates/numbers/detail/flint_value.h"
 #include "sublimit/certificates/numbers/detail/polynomial.h"
 
 namespace sublimit {
 namespace {
 
 Polynomial rational_characteristic_polynomial(const DenseMatrix<Algebraic>& A) {
+  RationalPolynomial p;
+  FlintRatio c;
   fmpq_mat_t M;
-  fmpq_poly_t p;
-  fmpq_t c;
   fmpq_mat_init(M, A.rows(), A.cols());
-  fmpq_poly_init(p);
-  fmpq_init(c);
   for (Eigen::Index i = 0; i < A.rows(); ++i)
     for (Eigen::Index j = 0; j < A.cols(); ++j)
       fmpq_poly_get_coeff_fmpq(fmpq_mat_entry(M, i, j), A(i, j).polynomial(), 0);
   fmpq_mat_charpoly(p, M);
+  fmpq_mat_clear(M);
   std::vector<Algebraic> coefficients;
   for (Eigen::Index i = 0; i <= A.rows(); ++i) {
     fmpq_poly_get_coeff_fmpq(c, p, i);
     coefficients.emplace_back(c);
   }
-  fmpq_clear(c);
-  fmpq_poly_clear(p);
-  fmpq_mat_clear(M);
   return Polynomial(std::move(coefficients));
 }
 

@@ -2,16 +2,13 @@
 // Roots of polynomials, enclosed: Arb's Durand-Kerner with interval Newton validation, at growing precision.
 #include <acb_poly.h>
 
+#include "sublimit/certificates/numbers/detail/flint_value.h"
 #include "sublimit/certificates/numbers/detail/polynomial.h"
 
 namespace sublimit {
 namespace {
 
-struct AcbPolynomial {
-  acb_poly_t p;
-  AcbPolynomial() { acb_poly_init(p); }
-  ~AcbPolynomial() { acb_poly_clear(p); }
-};
+using AcbPolynomial = FlintValue<acb_poly_struct, acb_poly_init, acb_poly_clear>;
 
 std::vector<ComplexBall> roots_at(const Polynomial& p, bool is_real, long bits) {
   const PrecisionScope scope(bits);
@@ -19,11 +16,11 @@ std::vector<ComplexBall> roots_at(const Polynomial& p, bool is_real, long bits) 
   for (int i = 0; i <= p.degree(); ++i) {
     ComplexBall c = p.coefficients()[i].enclosure();
     if (is_real) arb_zero(acb_imagref(c.get()));
-    acb_poly_set_coeff_acb(enclosed.p, i, c.get());
+    acb_poly_set_coeff_acb(enclosed, i, c.get());
   }
   const acb_ptr roots = _acb_vec_init(p.degree());
-  const bool isolated = acb_poly_find_roots(roots, enclosed.p, nullptr, 0, bits) == p.degree() &&
-                        (!is_real || acb_poly_validate_real_roots(roots, enclosed.p, bits));
+  const bool isolated = acb_poly_find_roots(roots, enclosed, nullptr, 0, bits) == p.degree() &&
+                        (!is_real || acb_poly_validate_real_roots(roots, enclosed, bits));
   std::vector<ComplexBall> result;
   for (int i = 0; isolated && i < p.degree(); ++i) {
     ComplexBall root(roots + i);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "sublimit/base/error.h"
+#include "sublimit/certificates/numbers/detail/flint_value.h"
 
 namespace sublimit {
 
@@ -141,14 +142,10 @@ namespace {
 
 /// Irreducible factors over the rationals.
 std::vector<PolynomialFactor> rational_factors(const Polynomial& p) {
-  fmpq_poly_t q;
-  fmpz_poly_t numerator;
-  fmpz_poly_factor_t factors;
-  fmpq_poly_init(q);
-  fmpz_poly_init(numerator);
-  fmpz_poly_factor_init(factors);
-  fmpq_t c;
-  fmpq_init(c);
+  RationalPolynomial q;
+  IntegerPolynomial numerator;
+  FlintValue<fmpz_poly_factor_struct, fmpz_poly_factor_init, fmpz_poly_factor_clear> factors;
+  FlintRatio c;
   for (int i = 0; i <= p.degree(); ++i) {
     fmpq_poly_get_coeff_fmpq(c, p.coefficients()[i].polynomial(), 0);
     fmpq_poly_set_coeff_fmpq(q, i, c);
@@ -164,10 +161,6 @@ std::vector<PolynomialFactor> rational_factors(const Polynomial& p) {
     }
     result.push_back({Polynomial(std::move(coefficients)).monic(), static_cast<int>(factors->exp[f])});
   }
-  fmpq_clear(c);
-  fmpz_poly_factor_clear(factors);
-  fmpz_poly_clear(numerator);
-  fmpq_poly_clear(q);
   return result;
 }
 
