@@ -92,8 +92,9 @@ TEST(Sidecar, EveryBoundaryHasAName) {
 }
 
 TEST(Sidecar, UnknownKeysAreWarnedAbout) {
-  const Mesh mesh = with(R"({"subdivisionScheme": "loop", "deep": {"creaseIndices": 3}})");
-  ASSERT_EQ(mesh.warnings.size(), 2u);
+  const Mesh mesh = with(R"({"subdivisionScheme": "loop", "deep": {"creaseIndices": 3}, "holeIndexes": []})");
+  ASSERT_EQ(mesh.warnings.size(), 3u);
+  EXPECT_EQ(mesh.warnings[2], "strip.json: unknown key \"holeIndexes\" ignored; the nearest is holeIndices");
   EXPECT_EQ(mesh.warnings[0], "strip.json: unknown key \"subdivisionScheme\" ignored");
   EXPECT_EQ(mesh.warnings[1], "strip.json: unknown key \"deep\" ignored");
 }

@@ -187,8 +187,11 @@ class Sidecar {
   void warn_unknown(Mesh& mesh) const {
     constexpr std::size_t most = 20;
     const std::vector<std::string> keys = object_.unread();
-    for (std::size_t i = 0; i < std::min(keys.size(), most); ++i)
-      mesh.warnings.push_back(object_.place() + ": unknown key " + show_text(keys[i]) + " ignored");
+    for (std::size_t i = 0; i < std::min(keys.size(), most); ++i) {
+      const std::vector<std::string> near = object_.nearest(keys[i]);
+      mesh.warnings.push_back(object_.place() + ": unknown key " + show_text(keys[i]) + " ignored" +
+                              (near.empty() ? "" : "; the nearest is " + near[0]));
+    }
     if (keys.size() > most)
       mesh.warnings.push_back(object_.place() + ": " + format_number(keys.size() - most) +
                               " more unknown keys ignored");

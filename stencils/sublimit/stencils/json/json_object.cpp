@@ -35,6 +35,10 @@ std::vector<std::string> JsonObject::unread() const {
   return others;
 }
 
+std::vector<std::string> JsonObject::nearest(const std::string& field) const {
+  return nearest_names(field, {known_.begin(), known_.end()});
+}
+
 bool JsonObject::has(std::string_view field) {
   known_.emplace(field);
   return value_->find(field) != nullptr;

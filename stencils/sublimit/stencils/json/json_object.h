@@ -35,6 +35,8 @@ class JsonObject {
   void finish() const;
   /// Returns the fields that were not read, in the order of the file.
   std::vector<std::string> unread() const;
+  /// Returns the fields that may be meant by a misspelt one, nearest first.
+  std::vector<std::string> nearest(const std::string& field) const;
 
   bool has(std::string_view field);
   /// Returns the value of a field.
