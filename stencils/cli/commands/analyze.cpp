@@ -253,20 +253,13 @@ int analyze_mesh(const AnalyzeOptions& options) {
   return found.seams.within_tolerance == false ? negative_verdict : 0;
 }
 
-int analyze_shapes(const AnalyzeOptions& options) {
+int analyze_shapes(const AnalyzeOptions& options, const Source& source) {
   Progress progress(options.common.quiet);
-  const Json report = analyze_free_form(options.common, options.tolerances, progress);
+  const Json report = analyze_free_form(source, options.tolerances, progress);
   write_outputs(options, report, progress);
   progress.step("");
   if (!options.common.quiet) print_free_form_report(report);
   return report["free_form"]["within_tolerance"] == false ? negative_verdict : 0;
-}
-
-/// Whether the file is one of recipes, or an .obj that is there and has free-form curves or surfaces.
-bool has_shapes(const Common& common) {
-  std::error_code ignored;
-  return is_recipe_job(common) ||
-         (std::filesystem::is_regular_file(common.mesh, ignored) && has_free_form(common.mesh));
 }
 
 int analyze(const AnalyzeOptions& options) {
@@ -277,7 +270,7 @@ int analyze(const AnalyzeOptions& options) {
   if (!options.json.empty()) check_output_path(options.json, {".json"});
   if (!options.json.empty() && !options.common.mesh.empty())
     check_not_sidecar("--json", options.json, options.common.mesh);
-  if (std::error_code ignored; !options.json.empty() && is_recipe_job(options.common) &&
+  if (std::error_code ignored; !options.json.empty() && options.common.scheme.empty() &&
                                std::filesystem::equivalent(options.json, options.common.mesh, ignored))
     throw InvalidOption("--json " + options.json + ": this file holds the recipes; choose another name");
   const int jobs = !options.common.mesh.empty() + options.has("--mask") + options.has("--sweep");
@@ -286,17 +279,22 @@ int analyze(const AnalyzeOptions& options) {
   if (options.has("--sweep")) return refuse_others(options, "sweeps"), analyze_sweep(options);
   const bool is_curve = file_extension(options.common.mesh) == ".csv";
   if (is_curve) return refuse_others(options, "a curve"), analyze_curve(options);
-  if (options.common.scheme.empty() && has_shapes(options.common))
-    return refuse_others(options, "free-form shapes"), analyze_shapes(options);
-  if (options.common.scheme.empty())
-    throw InvalidOption(
-        "name a scheme with -s, or all; `sublimit schemes` lists them" +
-        std::string(options.common.mesh.empty()
-                        ? ""
-                        : "; only an .obj with free-form curves or surfaces and a .json with recipes need none, and " +
-                              options.common.mesh + " is none"));
+  if (options.common.mesh.empty() && options.common.scheme.empty())
+    throw InvalidOption("name a scheme with -s, or all; `sublimit schemes` lists them");
   if (options.common.mesh.empty()) return refuse_others(options, "schemes"), analyze_schemes(options);
   if (options.common.scheme == "all") throw InvalidOption("a mesh is analysed under one scheme; name it with -s");
+  const Source source =
+      load_source(options.common, {"analyze", {SourceKind::mesh, SourceKind::patches, SourceKind::normals}, true});
+  if (source.has_shapes()) {
+    refuse_others(options, "free-form shapes");
+    refuse_other_options(source);
+    return analyze_shapes(options, source);
+  }
+  if (options.common.scheme.empty())
+    throw InvalidOption(
+        "name a scheme with -s; `sublimit schemes` lists them; only an .obj with free-form curves or surfaces and a "
+        ".json with recipes need none, and " +
+        options.common.mesh + " is none");
   return refuse_others(options, "meshes"), analyze_mesh(options);
 }
 

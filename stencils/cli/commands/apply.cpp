@@ -58,7 +58,7 @@ FrameReader frames_of(const ApplyOptions& options, const TableInfo& info) {
     return FrameReader(options.points);
   Common common = options.common;
   common.mesh = options.points;
-  LoadedPatches found = load_patches(common);
+  LoadedPatches found = load_patches(load_source(common, {"apply", {SourceKind::patches}}));
   if (!options.any_cage && info.topology_hash != 0 && found.patches.hash() != info.topology_hash)
     throw InvalidMesh(
         fmt::format("{}: its surfaces have other knots, degrees or control points than those that {} was baked from; "

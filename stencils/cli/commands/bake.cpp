@@ -10,8 +10,6 @@
 #include <string_view>
 
 #include "commands/bake_manifest.h"
-#include "support/curves.h"
-#include "support/free_form.h"
 #include "support/memory_limit.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
@@ -56,7 +54,6 @@ int run(const BakeOptions& options) {
        {std::pair("MESH", &job.common.mesh), std::pair("-o TABLE.safetensors", &job.output)})
     if (given->empty() && !(job.is_plan && given == &job.output))
       throw InvalidOption(std::string(name) + " is missing: bake MESH -s SCHEME -l LEVELS -o TABLE");
-  if (!is_free_form_job(job.common)) check_mesh_job(job.common, false);
   check(job);
   Progress progress(job.common.quiet);
   Dictionaries dictionaries(options.dictionary);

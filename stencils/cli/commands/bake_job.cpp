@@ -135,8 +135,7 @@ void write_table(const BakeJob& job, const Baked& baked, BakeOutcome& outcome, P
 }
 
 /// A table of the free-form surfaces of a file: without a scheme.
-BakeOutcome bake_free_form(const BakeJob& job, Progress& progress, bool keep) {
-  refuse_mesh_options(job.common);
+BakeOutcome bake_free_form(const BakeJob& job, const Source& source, Progress& progress, bool keep) {
   if (job.tags) throw InvalidOption("--tags are those of meshes, which need -s SCHEME");
   if (job.limit) throw InvalidOption("--limit is for meshes: points of a net have no places; take --grid N");
   if (!job.tessellation.empty()) throw InvalidOption("--tessellation is for meshes, which need -s SCHEME");
@@ -153,8 +152,7 @@ BakeOutcome bake_free_form(const BakeJob& job, Progress& progress, bool keep) {
     reader = std::make_unique<SampleReader>(job.at);
   }
   limit_threads(job.common);
-  progress.step("reading " + job.common.mesh);
-  const LoadedPatches found = load_patches(job.common);
+  const LoadedPatches found = load_patches(source);
   BakeOutcome outcome;
   outcome.control_points = found.patches.num_points();
   BakeRequest request = request_of(job);
@@ -178,7 +176,8 @@ BakeOutcome bake_free_form(const BakeJob& job, Progress& progress, bool keep) {
 
 BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress& progress, bool keep) {
   if (!job.is_plan) check_output_path(job.output, {".safetensors"});
-  if (is_free_form_job(job.common)) return bake_free_form(job, progress, keep);
+  const Source source = load_source(job.common, {"bake", {SourceKind::mesh, SourceKind::patches}});
+  if (source.kind == SourceKind::patches) return bake_free_form(job, source, progress, keep);
   std::unique_ptr<SampleReader> reader;  // a wrong header is told before a large mesh is read
   if (!job.at.empty()) reader = std::make_unique<SampleReader>(job.at);
   std::optional<PlacedFaces> placed;

@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "support/curves.h"
 #include "support/ending.h"
 #include "support/peak_memory.h"
 #include "sublimit/base/detail/file_error.h"
@@ -64,7 +63,6 @@ Report done(const BakeJob& job, Dictionaries& dictionaries, Progress& progress) 
   forget_peak_memory();
   const auto start = std::chrono::steady_clock::now();
   try {
-    check_mesh_job(job.common, false);
     check(job);
     report.outcome = bake_table(job, dictionaries, progress, true);
     dictionaries.save();

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "support/free_form.h"
 #include "support/memory_limit.h"
 #include "commands/searched.h"
 #include "sublimit/base/detail/format_number.h"
@@ -51,14 +50,14 @@ ClosestPoints search_of(const SearchedSurface& surface, const Points& queries, c
 }
 
 int run(const ClosestOptions& options) {
-  const bool free_form = is_free_form_job(options.common);
+  const Source source = load_source(options.common, {"closest", {SourceKind::mesh, SourceKind::patches}});
   check_output_path(options.output, {".csv"});
   const ClosestPointOptions search = search_options(options);
   Progress progress(options.common.quiet);
   progress.step("reading " + options.points);
   const Points queries = read_query_points(options.points);
   ClosestPoints found;
-  with_searched_surface(options.common, free_form, progress,
+  with_searched_surface(source, progress,
                         [&](const SearchedSurface& surface) { found = search_of(surface, queries, search, progress); });
   progress.step("writing " + options.output);
   write_closest_points(options.output, found, !options.nearest.empty() || !options.radius.empty());

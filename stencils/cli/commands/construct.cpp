@@ -21,7 +21,9 @@ std::string counted(size_t count, const char* what) {
 
 int run(const ConstructJob& job) {
   check_output_path(job.output, {".obj"});
-  const FreeForm nets = net_file(load_recipes(job.common));
+  const std::vector<Recipe> recipes = read_recipes(job.common.mesh);
+  if (!job.common.quiet) tell_notes(recipes);
+  const FreeForm nets = net_file(recipes);
   write_free_form(job.output, nets);
   if (!job.common.quiet)
     fmt::print("{}: {}{}{} control points\n", job.output, counted(nets.surfaces.size(), "surface"),

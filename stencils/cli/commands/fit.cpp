@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "support/common.h"
-#include "support/curves.h"
 #include "support/free_form.h"
 #include "support/memory_limit.h"
 #include "sublimit/base/detail/atomic_file.h"
@@ -159,7 +158,7 @@ int fit_geometric(const FitOptions& options, const FitTargets& targets, const Ge
   return 0;
 }
 
-int fit_patch_points(const FitOptions& options, Progress& progress) {
+int fit_patch_points(const FitOptions& options, const Source& source, Progress& progress) {
   if (!options.cloud.empty())
     throw InvalidOption("--cloud is for meshes; free-form surfaces take --targets IN.csv with places");
   refuse_others(options, "places", "free-form surfaces");
@@ -169,7 +168,7 @@ int fit_patch_points(const FitOptions& options, Progress& progress) {
   FitSettings settings = options.settings;
   settings.progress = [&](const std::string& what) { progress.note(what); };
   FreeFormFit fit;
-  naming_mesh(options.common, [&] { fit = fit_free_form(options.common, targets, settings, options.pin, progress); });
+  naming_mesh(options.common, [&] { fit = fit_free_form(source, targets, settings, options.pin, progress); });
   write_outputs(
       options, [&] { write_free_form(options.output, fit.shapes); }, "", fit.report, progress);
   return 0;
@@ -177,11 +176,9 @@ int fit_patch_points(const FitOptions& options, Progress& progress) {
 
 int run(const FitOptions& options) {
   limit_memory(options.memory_limit);
-  const bool free_form = is_free_form_job(options.common);
-  if (!free_form && is_curve_job(options.common))
-    throw InvalidOption(options.common.scheme + " refines curves; fits are of surfaces (`sublimit schemes` lists all)");
+  const Source source =
+      load_source(options.common, {"fit", {SourceKind::mesh, SourceKind::curvatures, SourceKind::patches}});
   const auto geometric = find_geometric_scheme<CurvatureMesh>(options.common.scheme, given_options(options.common));
-  if (!free_form && !geometric) (void)scheme_or_throw(options.common.scheme, given_options(options.common));
   for (const auto& [name, weight] : {std::pair{"--thin-plate", options.settings.fairness.thin_plate},
                                      {"--membrane", options.settings.fairness.membrane}})
     if (!(weight >= 0 && std::isfinite(weight)))
@@ -200,7 +197,7 @@ int run(const FitOptions& options) {
         options.cloud.empty()
             ? "neither --targets IN.csv nor --cloud POINTS; one of them says what the limit shall be near"
             : "both --targets and --cloud; a fit has one of them");
-  if (free_form) return fit_patch_points(options, progress);
+  if (source.kind == SourceKind::patches) return fit_patch_points(options, source, progress);
   if (!options.cloud.empty()) {
     if (geometric)
       throw InvalidOption(options.common.scheme + " takes --targets with normals and curvatures, and no --cloud");

@@ -6,31 +6,23 @@
 #include <nlohmann/json.hpp>
 
 #include "support/free_form.h"
-#include "support/recipes.h"
 #include "sublimit/report/free_form/free_form_json.h"
 #include "sublimit/report/free_form/recipe_report.h"
 #include "sublimit/stencils/files/numbers.h"
 
 namespace sublimit::cli {
 
-nlohmann::ordered_json analyze_free_form(const Common& common, const std::vector<std::string>& tolerances,
+nlohmann::ordered_json analyze_free_form(const Source& source, const std::vector<std::string>& tolerances,
                                          Progress& progress) {
-  refuse_mesh_options(common);
+  const Common& common = source.common;
   FreeFormReportOptions options;
   for (const std::string& tolerance : tolerances) read_tolerance(tolerance, options.tolerance);
-  progress.step("reading " + common.mesh);
-  std::vector<Recipe> recipes;
-  FreeForm shapes;
-  const bool is_recipe = is_recipe_job(common);
-  if (is_recipe)
-    recipes = load_recipes(common);
-  else
-    shapes = load_free_form(common);
+  tell_warnings(source);
   progress.step("analysing " + common.mesh);
   nlohmann::ordered_json report = report::report_head("free-form");
   naming_mesh(common, [&] {
-    const FreeFormReport found = is_recipe ? recipe_report(recipes, common.mesh, options)
-                                           : free_form_report(std::move(shapes), common.mesh, options);
+    const FreeFormReport found = source.recipes ? recipe_report(*source.recipes, common.mesh, options)
+                                                : free_form_report(*source.shapes, common.mesh, options);
     report["free_form"] = to_json(found, std::filesystem::path(common.mesh).filename().string());
   });
   return report;

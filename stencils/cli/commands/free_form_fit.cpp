@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Control points of free-form surfaces that come near to given points.
 #include "support/free_form.h"
-#include "support/recipes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/stencils/fit_jobs/fit_job.h"
 
 namespace sublimit::cli {
 
-FreeFormFit fit_free_form(const Common& common, const FitTargets& targets, FitSettings settings, const std::string& pin,
+FreeFormFit fit_free_form(const Source& source, const FitTargets& targets, FitSettings settings, const std::string& pin,
                           Progress& progress) {
-  refuse_mesh_options(common);
-  if (is_recipe_job(common))
+  const Common& common = source.common;
+  if (source.recipes)
     throw InvalidOption("fits are of control points, and recipes have other data; `sublimit construct " + common.mesh +
                         " -o NET.obj` writes nets that can be fitted");
-  FreeFormFit fit{.shapes = load_free_form(common), .report = {}};
+  tell_warnings(source);
+  FreeFormFit fit{.shapes = *source.shapes, .report = {}};
   const FreeFormPatches found = free_form_patches(fit.shapes, common.mesh);
   const Index count = static_cast<Index>(fit.shapes.vertices.rows());
   if (found.patches.num_points() != count)

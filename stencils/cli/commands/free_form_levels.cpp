@@ -52,15 +52,14 @@ Points euclidean(const PatchSet& patches, const Points& columns) {
 
 }  // namespace
 
-void refine_free_form(const Common& common, int levels, const std::string& output, const std::string& matrix) {
-  refuse_mesh_options(common);
+void refine_free_form(const Source& source, int levels, const std::string& output, const std::string& matrix) {
+  const Common& common = source.common;
   check_output_path(output, {".obj", ".ply"});
   if (!matrix.empty()) check_output_path(matrix, {".mtx"});
   if (levels < 1 || levels > 20) throw InvalidOption(fmt::format("-l {}: 1 to 20 levels are right", levels));
   limit_threads(common);
   Progress progress(common.quiet);
-  progress.step("reading " + common.mesh);
-  LoadedPatches loaded = load_patches(common);
+  LoadedPatches loaded = load_patches(source);
   naming_mesh(common, [&] {
     const FineNets nets = refined_nets(std::move(loaded), levels, !matrix.empty(), progress);
     if (nets.P) {
@@ -81,14 +80,13 @@ void refine_free_form(const Common& common, int levels, const std::string& outpu
   });
 }
 
-void limit_free_form(const Common& common, int levels, const std::string& output, bool normals) {
-  refuse_mesh_options(common);
+void limit_free_form(const Source& source, int levels, const std::string& output, bool normals) {
+  const Common& common = source.common;
   check_output_path(output, {".obj", ".ply"});
   if (levels < 0 || levels > 20) throw InvalidOption(fmt::format("-l {}: 0 to 20 levels are right", levels));
   limit_threads(common);
   Progress progress(common.quiet);
-  progress.step("reading " + common.mesh);
-  LoadedPatches loaded = load_patches(common);
+  LoadedPatches loaded = load_patches(source);
   naming_mesh(common, [&] {
     const FineNets nets = refined_nets(std::move(loaded), levels, false, progress);
     progress.step("limits");

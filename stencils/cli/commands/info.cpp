@@ -50,30 +50,19 @@ void print(const MeshInfo& info, const std::string& name) {
   if (info.faults.empty()) fmt::print("  no faults: a consistently wound manifold\n");
 }
 
-/// Integrals over the limit are those of a mesh with a scheme that has a matrix.
-void check_limit(const Common& common) {
-  if (common.scheme.empty()) throw InvalidOption("--limit: of which scheme? add -s SCHEME");
-  if (is_recipe_job(common) || is_normal_job(common))
-    throw InvalidOption("--limit: integrals are known of subdivision surfaces, not of recipes and " + common.scheme);
-}
-
 int run(const Common& common, bool as_json, bool limit) {
-  if (limit) check_limit(common);
-  if (is_recipe_job(common)) {
-    print_recipes(common, read_recipes(common.mesh), as_json);
-    return 0;
-  }
-  if (common.scheme.empty() && has_free_form(common.mesh)) {
-    const FreeForm shapes = read_free_form(common.mesh);
-    print_free_form(common, shapes, as_json);
-    if (shapes.num_faces == 0 || as_json) return 0;
+  const Takes any{"info", {SourceKind::mesh, SourceKind::normals, SourceKind::patches}, true};
+  const Source source = load_source(common, limit ? Takes{"info --limit", {SourceKind::mesh}} : any);
+  if (source.recipes) return print_recipes(source, as_json), 0;
+  if (source.shapes) {
+    print_free_form(common, *source.shapes, as_json);
+    if (source.shapes->num_faces == 0 || as_json) return 0;
   }
   Common quiet = common;
   quiet.quiet = true;
   Progress progress(common.quiet);
-  const bool normals = is_normal_job(common);
+  const bool normals = source.kind == SourceKind::normals;
   if (normals) {
-    check_normal_job(common, false);
     quiet.scheme.clear();
     quiet.options.clear();
   }

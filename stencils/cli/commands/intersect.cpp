@@ -5,7 +5,6 @@
 #include <memory>
 #include <numeric>
 
-#include "support/free_form.h"
 #include "commands/searched.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
@@ -33,14 +32,14 @@ RayOptions ray_options(const IntersectOptions& options) {
 }
 
 int run(const IntersectOptions& options) {
-  const bool free_form = is_free_form_job(options.common);
+  const Source source = load_source(options.common, {"intersect", {SourceKind::mesh, SourceKind::patches}});
   check_output_path(options.output, {".csv"});
   const RayOptions search = ray_options(options);
   Progress progress(options.common.quiet);
   progress.step("reading " + options.rays);
   const std::vector<Ray> rays = read_rays(options.rays);
   RayHits hits;
-  with_searched_surface(options.common, free_form, progress, [&](const SearchedSurface& surface) {
+  with_searched_surface(source, progress, [&](const SearchedSurface& surface) {
     progress.step(fmt::format("tracing {} rays", rays.size()));
     hits = intersect(surface, rays, search);
   });

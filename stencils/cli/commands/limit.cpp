@@ -3,11 +3,9 @@
 
 #include <algorithm>
 
-#include "support/common.h"
 #include "support/curves.h"
 #include "support/free_form.h"
 #include "support/normal_surfaces.h"
-#include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/stencils/files/level_files.h"
@@ -18,23 +16,11 @@ namespace {
 struct LimitOptions {
   Common common;
   int levels = 0;
-  bool normals = false, closed = false;
+  bool normals = false;
   std::string output;
 };
 
-int run(const LimitOptions& options) {
-  if (is_curve_job(options.common))
-    return limit_curves({&options.common, options.levels, options.output, "", options.closed, options.normals});
-  if (is_normal_job(options.common)) {
-    check_normal_job(options.common, options.closed);
-    return write_normal_surface({&options.common, options.levels, options.output, "", options.normals});
-  }
-  if (is_free_form_job(options.common)) {
-    if (options.closed) throw InvalidOption("--closed is for curves");
-    limit_free_form(options.common, options.levels, options.output, options.normals);
-    return 0;
-  }
-  check_mesh_job(options.common, options.closed);
+int limit_vertices(const LimitOptions& options) {
   check_output_path(options.output, {".obj", ".ply"});
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
@@ -73,6 +59,21 @@ int run(const LimitOptions& options) {
   return 0;
 }
 
+int run(const LimitOptions& options) {
+  const Source source = load_source(
+      options.common, {"limit", {SourceKind::mesh, SourceKind::curves, SourceKind::normals, SourceKind::patches}});
+  switch (source.kind) {
+    case SourceKind::curves:
+      return limit_curves({&options.common, options.levels, options.output, "", options.normals});
+    case SourceKind::normals:
+      return write_normal_surface({&source, options.levels, options.output, "", options.normals});
+    case SourceKind::patches:
+      return limit_free_form(source, options.levels, options.output, options.normals), 0;
+    default:
+      return limit_vertices(options);
+  }
+}
+
 }  // namespace
 
 Command add_limit(CLI::App& app) {
@@ -84,7 +85,7 @@ Command add_limit(CLI::App& app) {
                     "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply");
   command->add_option("-o,--output", options->output, "OUT.obj or OUT.ply; faces that are holes are left out")
       ->required();
-  add_closed(*command, options->closed);
+  add_closed(*command, options->common);
   command->footer(
       "Examples:\n"
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.obj\n"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/common.h"
 #include "support/curves.h"
 #include "support/free_form.h"
 #include "support/normal_surfaces.h"
@@ -14,24 +13,10 @@ struct RefineOptions {
   Common common;
   int levels = 1;
   std::string output, matrix;
-  bool no_tags = false, closed = false;
+  bool no_tags = false;
 };
 
-int run(const RefineOptions& options) {
-  if (is_curve_job(options.common))
-    return refine_curves({&options.common, options.levels, options.output, options.matrix, options.closed});
-  if (is_normal_job(options.common)) {
-    check_normal_job(options.common, options.closed);
-    return write_normal_surface({&options.common, options.levels, options.output, options.matrix});
-  }
-  if (is_free_form_job(options.common)) {
-    if (options.no_tags || options.closed)
-      throw InvalidOption(std::string(options.closed ? "--closed is for curves" : "--no-tags is for meshes") +
-                          "; free-form surfaces have neither");
-    refine_free_form(options.common, options.levels, options.output, options.matrix);
-    return 0;
-  }
-  check_mesh_job(options.common, options.closed);
+int refine_mesh(const RefineOptions& options) {
   check_output_path(options.output, {".obj", ".ply"});
   if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
   Progress progress(options.common.quiet);
@@ -69,6 +54,22 @@ int run(const RefineOptions& options) {
   return 0;
 }
 
+int run(const RefineOptions& options) {
+  const Source source = load_source(
+      options.common, {"refine", {SourceKind::mesh, SourceKind::curves, SourceKind::normals, SourceKind::patches}});
+  switch (source.kind) {
+    case SourceKind::curves:
+      return refine_curves({&options.common, options.levels, options.output, options.matrix});
+    case SourceKind::normals:
+      return write_normal_surface({&source, options.levels, options.output, options.matrix});
+    case SourceKind::patches:
+      if (options.no_tags) throw InvalidOption("--no-tags is for meshes; free-form surfaces have none");
+      return refine_free_form(source, options.levels, options.output, options.matrix), 0;
+    default:
+      return refine_mesh(options);
+  }
+}
+
 }  // namespace
 
 Command add_refine(CLI::App& app) {
@@ -80,7 +81,7 @@ Command add_refine(CLI::App& app) {
       ->required();
   command->add_option("--matrix", options->matrix, "OUT.mtx: the stencils, new points = matrix * control points");
   command->add_flag("--no-tags", options->no_tags, "Leave the tags out");
-  add_closed(*command, options->closed);
+  add_closed(*command, options->common);
   command->footer(
       "Examples:\n"
       "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"

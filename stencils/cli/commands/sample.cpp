@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "commands/explain.h"
 #include "support/curves.h"
 #include "support/free_form.h"
 #include "support/memory_limit.h"
@@ -23,7 +24,7 @@ namespace {
 
 struct SampleOptions {
   SampleJob job;
-  std::string grid, random_count, seed, memory_limit;  // as given
+  std::string grid, random_count, seed, memory_limit, explain;  // as given
 };
 
 /// A whole number on the command line. A larger one than any machine can count is the largest: it will be refused for
@@ -51,6 +52,7 @@ SampleJob checked(const SampleOptions& options) {
     if (!job.random_count) throw InvalidOption("--seed is for --random N");
     job.seed = whole<std::uint64_t>("--seed", options.seed, 0, "a whole number from 0 to 2^64 - 1");
   }
+  if (job.output.empty()) throw InvalidOption("-o OUT.csv says where the samples go; it is missing");
   if (job.clamp && job.at.empty())
     throw InvalidOption("--clamp is for --at IN.csv; no other places are outside the domain");
   if (job.curvature && job.derivatives < 2) throw InvalidOption("--curvature needs --derivatives 2");
@@ -125,11 +127,9 @@ void print_summary(const SampleJob& job, const SampleSummary& summary, const std
 }
 
 /// Curves or surfaces without a scheme. A file with both has its surfaces sampled, unless curves are asked for.
-void sample_patches(const SampleJob& job, SampleReader* reader, Progress& progress) {
-  refuse_mesh_options(job.common);
+void sample_patches(const SampleJob& job, const Source& source, SampleReader* reader, Progress& progress) {
   limit_threads(job.common);
-  progress.step("reading " + job.common.mesh);
-  const LoadedPatches found = load_patches(job.common);
+  const LoadedPatches found = load_patches(source);
   SampleSource own_source;
   OwnPlaces own;
   std::unique_ptr<OwnPlaceReader> own_reader;
@@ -145,8 +145,8 @@ void sample_patches(const SampleJob& job, SampleReader* reader, Progress& progre
 }
 
 /// Surfaces through points and normals, which are not linear.
-void sample_normal_surfaces(const SampleJob& job, SampleReader* reader, Progress& progress) {
-  const std::vector<NormalSurface> loaded = load_normal_surfaces(job.common, progress);
+void sample_normal_surfaces(const SampleJob& job, const Source& source, SampleReader* reader, Progress& progress) {
+  const std::vector<NormalSurface> loaded = load_normal_surfaces(source, progress);
   std::vector<std::shared_ptr<const PlacedSurface>> parts;
   for (const NormalSurface& part : loaded) parts.push_back(part.scheme.surface(part.data));
   const std::shared_ptr<const PlacedSurface> surface = placed_together(std::move(parts));
@@ -155,7 +155,7 @@ void sample_normal_surfaces(const SampleJob& job, SampleReader* reader, Progress
   print_summary(job, summary, fmt::format("{} patches", surface->faces().size), reader);
 }
 
-void sample_mesh(const SampleJob& job, SampleReader* reader, Progress& progress) {
+void sample_mesh(const SampleJob& job, const Source&, SampleReader* reader, Progress& progress) {
   const Loaded loaded = load(job.common, progress);
   check_mesh_memory(job.common.mesh, loaded.mesh);
   const auto types = std::make_shared<LimitCache>(*loaded.scheme);
@@ -167,23 +167,42 @@ void sample_mesh(const SampleJob& job, SampleReader* reader, Progress& progress)
   print_summary(job, summary, fmt::format("{} types of pieces", types->pieces().size()), reader);
 }
 
+/// Prints the way to the limit at one place of a mesh.
+int explain(const SampleOptions& options) {
+  const SampleJob& job = options.job;
+  if (!job.output.empty() || !job.at.empty() || !options.grid.empty() || !options.random_count.empty())
+    throw InvalidOption("--explain prints one place; leave out --at, --grid, --random and -o");
+  const Place place = explained_place(options.explain);
+  (void)load_source(job.common, {"sample --explain", {SourceKind::mesh}});
+  Progress progress(job.common.quiet);
+  const Loaded loaded = load(job.common, progress);
+  naming_mesh(job.common, [&] {
+    const LimitMap surface(*loaded.scheme, loaded.mesh, loaded.rules);
+    fmt::print("{}", explanation(surface, loaded.mesh.positions, place));
+  });
+  return 0;
+}
+
 int run(const SampleOptions& options) {
+  if (!options.explain.empty()) return explain(options);
   const SampleJob job = checked(options);
   limit_memory(options.memory_limit);
-  if (is_curve_job(job.common)) return sample_curves(job);
-  const bool free_form = is_free_form_job(job.common);
-  if (job.curves && !free_form) throw InvalidOption("--curves is for free-form files and recipes, without -s SCHEME");
-  if (free_form && (job.curves || has_curves_alone(job.common))) return sample_patch_curves(job);
-  const bool normals = is_normal_job(job.common);
-  if (normals) check_normal_job(job.common, job.closed);
-  if (!free_form && !normals) check_mesh_job(job.common, job.closed);
+  const Source source = load_source(
+      job.common, {"sample", {SourceKind::mesh, SourceKind::curves, SourceKind::normals, SourceKind::patches}});
+  if (source.kind == SourceKind::curves) return sample_curves(job);
+  if (job.curves && !source.has_shapes())
+    throw InvalidOption("--curves is for free-form files and recipes, without -s SCHEME");
+  if (job.curves || source.has_curves_alone()) return sample_patch_curves(job, source);
   check_output_path(job.output, {".csv"});
   std::unique_ptr<SampleReader> reader;  // a wrong header is told before a large mesh is read
-  const bool own_places = free_form && !normals && !job.at.empty() && has_own_places(job.at, "patch");
+  const bool own_places = source.kind == SourceKind::patches && !job.at.empty() && has_own_places(job.at, "patch");
   if (own_places && job.clamp) throw InvalidOption("--clamp is for places face,u,v; " + job.at + " has patch,u,v");
   if (!job.at.empty() && !own_places) reader = std::make_unique<SampleReader>(job.at, job.clamp);
   Progress progress(job.common.quiet);
-  (normals ? sample_normal_surfaces : free_form ? sample_patches : sample_mesh)(job, reader.get(), progress);
+  const auto sample = source.kind == SourceKind::normals   ? sample_normal_surfaces
+                      : source.kind == SourceKind::patches ? sample_patches
+                                                           : sample_mesh;
+  sample(job, source, reader.get(), progress);
   return 0;
 }
 
@@ -209,8 +228,12 @@ Command add_sample(CLI::App& app) {
                     "Columns k1,k2,gauss,mean: principal curvatures k1 >= k2, Gauss and mean; needs --derivatives 2");
   command->add_flag("--clamp", job.clamp,
                     "Places of --at outside their face are moved to its rim (default: an error that names the row)");
-  command->add_option("-o,--output", job.output, "OUT.csv: face,u,v,status,x,y,z[,derivatives],nx,ny,nz")->required();
-  add_closed(*command, job.closed);
+  command->add_option("--explain", options->explain,
+                      "FACE,U,V: print the way to the limit at one place: pieces, blocks, polynomial or eigenvector, "
+                      "weights; nothing is written");
+  command->add_option("-o,--output", job.output,
+                      "OUT.csv: face,u,v,status,x,y,z[,derivatives],nx,ny,nz (needed but for --explain)");
+  add_closed(*command, job.common);
   command->add_flag("--curves", job.curves, "Of files that have both: the curves (default: the surfaces)");
   add_memory_limit(*command, options->memory_limit);
   command->footer(
@@ -218,6 +241,7 @@ Command add_sample(CLI::App& app) {
       "  sublimit sample cage.obj -s catmull-clark --grid 5 -o points.csv\n"
       "  sublimit sample cage.obj -s loop --random 1000000 --seed 7 --derivatives 1 -o points.csv\n"
       "  sublimit sample cage.obj -s catmull-clark --at places.csv --derivatives 2 --curvature -o points.csv\n"
+      "  sublimit sample cage.obj -s loop --explain 0,0.25,0.5                   how this point comes about\n"
       "  sublimit sample teapot.obj --grid 9 --derivatives 1 -o points.csv       free-form surfaces: without a scheme\n"
       "  sublimit sample sphere.json --grid 9 --derivatives 1 -o points.csv      recipes: see `sublimit construct --help`\n"
       "\nFaces are numbered from 0 as Ptex does. A quad is one face: (0,0) at its first corner, u towards the second, v\n"

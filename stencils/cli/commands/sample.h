@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "support/common.h"
+#include "support/source.h"
 
 namespace sublimit::cli {
 
@@ -18,7 +18,6 @@ struct SampleJob {
   std::uint64_t seed = 0;
   int derivatives = 0;  ///< 0, 1 or 2
   bool clamp = false, curvature = false;
-  bool closed = false;  ///< curves of a CSV are closed
   bool curves = false;  ///< sample the curves of recipes instead of their surfaces
   std::string output;
 };
@@ -26,6 +25,6 @@ struct SampleJob {
 /// Samples limits of a scheme for curves.
 int sample_curves(const SampleJob& job);
 /// Samples the curves of a free-form file or of recipes.
-int sample_patch_curves(const SampleJob& job);
+int sample_patch_curves(const SampleJob& job, const Source& source);
 
 }  // namespace sublimit::cli

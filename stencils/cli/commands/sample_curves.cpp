@@ -29,10 +29,10 @@ namespace {
 constexpr size_t samples_per_batch = 65536;
 
 /// The next places: at most so many, fewer only at the end.
-using Source = std::function<std::vector<CurvePlace>(size_t most)>;
+using NextPlaces = std::function<std::vector<CurvePlace>(size_t most)>;
 using Evaluation = std::function<CurveSamples(std::span<const CurvePlace>)>;
 
-Source source_of(const SampleJob& job, Index segments, std::shared_ptr<CsvRows> rows) {
+NextPlaces source_of(const SampleJob& job, Index segments, std::shared_ptr<CsvRows> rows) {
   if (rows)
     return [=, clamp = job.clamp](size_t most) {
       const std::string valid = fmt::format("segments are 0 to {}", segments - 1);
@@ -76,7 +76,7 @@ std::string coordinate(Index i, Index dimension) {
 }
 
 /// @param own  of each batch, filled by `source`: places as own parameters; its sides are known before
-std::int64_t write(const SampleJob& job, Index dimension, const Source& source, const Evaluation& evaluate,
+std::int64_t write(const SampleJob& job, Index dimension, const NextPlaces& source, const Evaluation& evaluate,
                    Progress& progress, const OwnCurvePlaces* own = nullptr) {
   AtomicFile file(job.output);
   std::string text = (own ? own->header() : "segment,t") + ",status";
@@ -149,8 +149,7 @@ int order_for(const SampleJob& job, Index dimension) { return std::max(job.deriv
 
 }  // namespace
 
-int sample_patch_curves(const SampleJob& job) {
-  refuse_mesh_options(job.common);
+int sample_patch_curves(const SampleJob& job, const Source& source) {
   limit_threads(job.common);
   check_curve_samples(job);
   std::shared_ptr<CsvRows> rows;
@@ -164,7 +163,7 @@ int sample_patch_curves(const SampleJob& job) {
     rows = open_places(job, "segment,t or curve,t or curve,t,side");
   }
   Progress progress(job.common.quiet);
-  const LoadedCurves found = load_patch_curves(job.common);
+  const LoadedCurves found = load_patch_curves(source);
   progress.step("sampling");
   const auto dimension =
       static_cast<Index>(found.columns.cols() - (found.coordinates == Coordinates::homogeneous ? 1 : 0));
@@ -175,7 +174,7 @@ int sample_patch_curves(const SampleJob& job) {
     return batch;
   };
   const std::int64_t written = write(
-      job, dimension, own_reader ? Source(own_source) : source_of(job, found.curves.num_segments(), rows),
+      job, dimension, own_reader ? NextPlaces(own_source) : source_of(job, found.curves.num_segments(), rows),
       [&](std::span<const CurvePlace> batch) {
         return found.curves.evaluate(found.columns, batch, order, found.coordinates);
       },
@@ -191,8 +190,8 @@ int sample_curves(const SampleJob& job) {
   check_curve_samples(job);
   const std::shared_ptr<CsvRows> rows = open_places(job, "segment,t");
   Progress progress(job.common.quiet);
-  const CurveJob curve_job{&job.common, 0, job.output, "", job.closed, false};
-  const SchemeOptions options = curve_options(job.common);
+  const CurveJob curve_job{&job.common, 0, job.output, "", false};
+  const SchemeOptions options = given_options(job.common);
   const auto geometric = find_geometric_scheme(job.common.scheme, options);
   const auto linear = geometric ? std::nullopt : find_curve_scheme(job.common.scheme, options);
   const ControlPolygon polygon =

@@ -8,13 +8,12 @@
 
 namespace sublimit::cli {
 
-void with_searched_surface(const Common& common, bool free_form, Progress& progress,
+void with_searched_surface(const Source& source, Progress& progress,
                            const std::function<void(const SearchedSurface&)>& search) {
-  if (free_form) {
-    refuse_mesh_options(common);
+  const Common& common = source.common;
+  if (source.kind == SourceKind::patches) {
     limit_threads(common);
-    progress.step("reading " + common.mesh);
-    const LoadedPatches loaded = load_patches(common);
+    const LoadedPatches loaded = load_patches(source);
     naming_mesh(common, [&] { search(SearchedPatches(loaded.patches, loaded.columns)); });
     return;
   }

@@ -4,14 +4,14 @@
 // which need no scheme.
 #include <functional>
 
-#include "support/common.h"
+#include "support/source.h"
 #include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit::cli {
 
 /// Reads the surface and calls search(surface). Errors name the file.
-/// @param free_form  result of `is_free_form_job`, which callers check before they read other files
-void with_searched_surface(const Common& common, bool free_form, Progress& progress,
+/// @param source  a mesh or patches
+void with_searched_surface(const Source& source, Progress& progress,
                            const std::function<void(const SearchedSurface&)>& search);
 
 }  // namespace sublimit::cli

@@ -5,8 +5,6 @@
 #include <memory>
 #include <numbers>
 
-#include "support/free_form.h"
-#include "support/normal_surfaces.h"
 #include "commands/step_job.h"
 #include "sublimit/base/error.h"
 #include "sublimit/cad/limit_model.h"
@@ -50,7 +48,8 @@ nlohmann::ordered_json report_of(const StepJob& job, const LimitModel& model, co
 }
 
 int run(const StepJob& job) {
-  if (is_normal_job(job.common) || is_free_form_job(job.common)) return step_patches(job);
+  const Source source = load_source(job.common, {"step", {SourceKind::mesh, SourceKind::normals, SourceKind::patches}});
+  if (source.kind != SourceKind::mesh) return step_patches(job, source);
   tolerance_of(job.tolerance, 1);  // a wrong number is told before the mesh is read
   if (!job.join.empty() && job.join != "g0" && job.join != "g1")
     throw InvalidOption(fmt::format("--join {}: caps join their neighbours by g0 or g1", job.join));

@@ -3,7 +3,7 @@
 // Arguments of `sublimit step`, and its steps that models of meshes and of free-form surfaces share.
 #include <nlohmann/json.hpp>
 
-#include "support/common.h"
+#include "support/source.h"
 #include "opencascade/entry.h"
 
 namespace sublimit::cli {
@@ -26,6 +26,6 @@ void write_step(const StepJob& job, const CadFile& file, const nlohmann::ordered
 
 /// Runs `sublimit step` for free-form surfaces, recipes, and triangles with normals.
 /// @return  the exit status
-int step_patches(const StepJob& job);
+int step_patches(const StepJob& job, const Source& source);
 
 }  // namespace sublimit::cli

@@ -25,14 +25,15 @@ std::string name_of(const FreeForm& shapes, const FreeFormSurface& surface) {
   return named >= 0 ? shapes.names[size_t(named)] : std::string();
 }
 
-std::vector<NamedPatch> free_form_surfaces(const Common& common) {
-  const FreeForm shapes = load_free_form(common);
-  const FreeFormPatches found = load_free_form_patches(common, shapes);
+std::vector<NamedPatch> free_form_surfaces(const Source& source) {
+  tell_warnings(source);
+  const FreeForm& shapes = *source.shapes;
+  const FreeFormPatches found = free_form_patches_of(source);
   std::vector<NamedPatch> patches;
   for (size_t p = 0; p < shapes.surfaces.size(); ++p)
     patches.push_back({found.patches.members()[p].patch, found.patches.columns_of(p, found.columns),
                        found.patches.coordinates(), name_of(shapes, shapes.surfaces[p]),
-                       fmt::format("{}:{}: patch {}", common.mesh, found.line[p], p)});
+                       fmt::format("{}:{}: patch {}", source.common.mesh, found.line[p], p)});
   return patches;
 }
 
@@ -45,8 +46,10 @@ std::vector<NamedPatch> normal_triangles(const NormalSurface& surface, const std
 }
 
 /// Nets where a kind has one: a polynomial by points is a B-spline then.
-std::vector<NamedPatch> recipe_surfaces(const Common& common, Progress& progress) {
-  std::vector<Recipe> recipes = load_recipes(common);
+std::vector<NamedPatch> recipe_surfaces(const Source& source, Progress& progress) {
+  const Common& common = source.common;
+  tell_warnings(source);
+  const std::vector<Recipe>& recipes = *source.recipes;
   std::vector<NamedPatch> patches;
   for (const Recipe& recipe : recipes) {
     if (const RecipeSurface* const surface = recipe.surface()) {
@@ -62,15 +65,14 @@ std::vector<NamedPatch> recipe_surfaces(const Common& common, Progress& progress
     }
   }
   if (patches.empty()) (void)recipe_patches(recipes, common.mesh);  // tells what there is instead
-  std::erase_if(recipes, [](const Recipe& recipe) { return recipe.normal_triangles() != nullptr; });
-  tell_left_out(common, recipes, Sampled::surfaces);
+  tell_left_out(source, Sampled::all_surfaces);
   return patches;
 }
 
-std::vector<NamedPatch> load_surfaces(const Common& common, Progress& progress) {
-  if (is_recipe_job(common)) return recipe_surfaces(common, progress);
-  if (is_normal_job(common)) return normal_triangles(load_normal_surfaces(common, progress)[0], "");
-  return free_form_surfaces(common);
+std::vector<NamedPatch> load_surfaces(const Source& source, Progress& progress) {
+  if (source.recipes) return recipe_surfaces(source, progress);
+  if (source.kind == SourceKind::normals) return normal_triangles(load_normal_surfaces(source, progress)[0], "");
+  return free_form_surfaces(source);
 }
 
 double diagonal_of(const std::vector<NamedPatch>& patches) {
@@ -111,22 +113,18 @@ nlohmann::ordered_json report_of(const StepJob& job, const PatchModel& model, co
 }
 
 void refuse_limit_options(const StepJob& job) {
-  if (is_normal_job(job.common))
-    check_normal_job(job.common, false);
-  else
-    refuse_mesh_options(job.common);
   if (!job.join.empty()) throw InvalidOption("--join is for caps of subdivision limits; patches have none");
   if (job.no_packing) throw InvalidOption("--no-packing is for subdivision limits; each patch is a face as it is");
 }
 
 }  // namespace
 
-int step_patches(const StepJob& job) {
+int step_patches(const StepJob& job, const Source& source) {
   refuse_limit_options(job);
   if (!job.tolerance.empty()) distance_option("--tolerance", job.tolerance, 1);
   CadFileEntry* const entry = prepare_step(job);
   Progress progress(job.common.quiet);
-  const std::vector<NamedPatch> patches = load_surfaces(job.common, progress);
+  const std::vector<NamedPatch> patches = load_surfaces(source, progress);
   progress.step("joining patches");
   PatchModelOptions options;
   if (const double diagonal = diagonal_of(patches); !job.tolerance.empty() && diagonal > 0)

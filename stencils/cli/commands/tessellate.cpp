@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "support/common.h"
+#include "support/source.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/file_extension.h"
@@ -102,6 +102,7 @@ void print_summary(const TessellateOptions& options, const Tessellation& made) {
 }
 
 int run(const TessellateOptions& options) {
+  (void)load_source(options.common, {"tessellate", {SourceKind::mesh}});
   TessellationOptions wanted{.angle = radians(options.angle), .max_triangles = most_triangles(options.most)};
   if (options.chord.empty() && options.rates.empty())
     throw InvalidOption("--chord D, a distance, or --rates RATES.csv, segments of edges, is needed");
@@ -162,7 +163,7 @@ Command add_tessellate(CLI::App& app) {
   auto* command =
       app.add_subcommand("tessellate", "Make triangles within a proved distance of the limit, without cracks");
   auto options = std::make_shared<TessellateOptions>();
-  add_mesh(*command, options->common, true);
+  add_mesh(*command, options->common, false);
   command->add_option("--chord", options->chord,
                       "Largest distance of triangles from the limit: in the mesh's unit, or as 0.1% of its diagonal");
   command->add_option(

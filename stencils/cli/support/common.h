@@ -29,6 +29,7 @@ struct Common {
   int threads = 0;                                          ///< 0: all
   bool quiet = false, strict = false;
   bool triangulate = false, no_creases = false;
+  bool closed = false;  ///< curves of a CSV are closed
 };
 
 using Loaded = MeshJob;

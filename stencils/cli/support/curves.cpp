@@ -23,28 +23,13 @@ std::string curve_scheme_names() {
   return names;
 }
 
-CurveScheme<double> scheme_of(const Common& common) { return curve_scheme(common.scheme, curve_options(common)); }
+CurveScheme<double> scheme_of(const Common& common) { return curve_scheme(common.scheme, given_options(common)); }
 
 }  // namespace
 
-void add_closed(CLI::App& command, bool& closed) {
-  command.add_flag("--closed", closed, "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
-}
-
-void check_mesh_job(const Common& common, bool closed) {
-  scheme_or_throw(common.scheme, given_options(common));  // a misspelt name may be one of curves
-  if (closed) throw InvalidOption("--closed is for curves; " + common.scheme + " refines meshes");
-}
-
-SchemeOptions curve_options(const Common& common) {
-  for (const auto& [name, value] :
-       {std::pair("--boundary", common.boundary), std::pair("--creasing", common.creasing),
-        std::pair("--triangles", common.triangles), std::pair("--face-varying", common.face_varying)})
-    if (!value.empty()) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
-  for (const auto& [name, given] :
-       {std::pair("--triangulate", common.triangulate), std::pair("--no-creases", common.no_creases)})
-    if (given) throw InvalidOption(std::string(name) + " is for meshes; " + common.scheme + " refines curves");
-  return given_options(common);
+void add_closed(CLI::App& command, Common& common) {
+  command.add_flag("--closed", common.closed,
+                   "Curves: a CSV has closed ones (an OBJ line that comes back is closed anyway)");
 }
 
 ControlPolygon load_polygon(const CurveJob& job, Progress& progress, bool tangents) {
@@ -56,7 +41,7 @@ ControlPolygon load_polygon(const CurveJob& job, Progress& progress, bool tangen
                               " refines curves, a .csv of points or the lines of an .obj");
   progress.step("reading " + common.mesh);
   ControlPolygon polygon = read_polygon(common.mesh, tangents);
-  for (size_t c = 0; job.closed && c < polygon.curves.size(); ++c) {
+  for (size_t c = 0; common.closed && c < polygon.curves.size(); ++c) {
     ControlPolygon::Curve& curve = polygon.curves[c];
     curve.closed = true;
     const auto point = [&](Index i) { return polygon.points.row(i); };
@@ -103,14 +88,6 @@ Refined refined(const CurveJob& job, const CurveScheme<double>& scheme, Progress
 
 }  // namespace
 
-bool is_curve_job(const Common& common) {
-  for (const CurveScheme<double>& scheme : all_curve_schemes())
-    if (common.scheme == scheme.name) return true;
-  for (const auto& entry : geometric_registry<ControlPolygon>)
-    if (common.scheme == entry.name) return true;
-  return false;
-}
-
 void refuse_polygon(const Common& common) {
   const std::string extension = file_extension(common.mesh);
   bool polygon = extension == ".csv";
@@ -128,7 +105,7 @@ void refuse_polygon(const Common& common) {
 }
 
 int refine_curves(const CurveJob& job) {
-  if (const auto scheme = find_geometric_scheme(job.common->scheme, curve_options(*job.common)))
+  if (const auto scheme = find_geometric_scheme(job.common->scheme, given_options(*job.common)))
     return refine_geometric(job, *scheme);
   check_curve_output(job);
   Progress progress(job.common->quiet);
@@ -146,7 +123,7 @@ int refine_curves(const CurveJob& job) {
 }
 
 int limit_curves(const CurveJob& job) {
-  if (const auto scheme = find_geometric_scheme(job.common->scheme, curve_options(*job.common)))
+  if (const auto scheme = find_geometric_scheme(job.common->scheme, given_options(*job.common)))
     return limit_geometric(job, *scheme);
   check_curve_output(job);
   Progress progress(job.common->quiet);

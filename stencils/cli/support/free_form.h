@@ -3,8 +3,7 @@
 // Files of free-form curves and surfaces on the command line, which need no scheme.
 #include <nlohmann/json_fwd.hpp>
 
-#include "support/common.h"
-#include "sublimit/io/free_form.h"
+#include "support/source.h"
 #include "sublimit/patches/curve_set.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/patches/patch_set.h"
@@ -12,45 +11,31 @@
 
 namespace sublimit::cli {
 
-/// Returns true if the file is to be read as free-form surfaces: no scheme is given.
-/// @throws InvalidOption  a file without free-form surfaces, which needs a scheme
-bool is_free_form_job(const Common& common);
-
-/// Checks that no options are given that are only for meshes.
-/// @throws InvalidOption  such an option
-void refuse_mesh_options(const Common& common);
-
-/// Loads the shapes of a file, and prints its warnings.
-FreeForm load_free_form(const Common& common);
-/// Loads the surfaces of a file, and reports those that are left out.
-FreeFormPatches load_free_form_patches(const Common& common, const FreeForm& shapes);
+/// Prints the warnings of the shapes of a source.
+void tell_warnings(const Source& source);
+/// Makes patches of the surfaces of a file, and reports shapes that are left out.
+FreeFormPatches free_form_patches_of(const Source& source);
 
 /// Surfaces of a free-form .obj or of recipes, as one source. Surfaces that are left out are reported.
 struct LoadedPatches {
   PatchSet patches;
   Points columns;  ///< control points x 3, or x 4 if homogeneous
 };
-LoadedPatches load_patches(const Common& common);
+LoadedPatches load_patches(const Source& source);
 /// Curves of a free-form .obj or of recipes, as one source.
 struct LoadedCurves {
   CurveSet curves;
   Points columns;
   Coordinates coordinates = Coordinates::plain;
 };
-LoadedCurves load_patch_curves(const Common& common);
-/// Returns true if the file has curves but no surfaces.
-bool has_curves_alone(const Common& common);
-
-/// Returns true if an .obj has free-form curves or surfaces; false for a pipe.
-/// @throws IoError  unreadable
-bool has_free_form(const std::string& path);
+LoadedCurves load_patch_curves(const Source& source);
 
 /// Prints information on free-form shapes, for `info`.
 void print_free_form(const Common& common, const FreeForm& shapes, bool json);
 
 /// Runs `refine` or `limit` for the free-form surfaces of a file.
-void refine_free_form(const Common& common, int levels, const std::string& output, const std::string& matrix);
-void limit_free_form(const Common& common, int levels, const std::string& output, bool normals);
+void refine_free_form(const Source& source, int levels, const std::string& output, const std::string& matrix);
+void limit_free_form(const Source& source, int levels, const std::string& output, bool normals);
 
 /// A fit of the free-form surfaces of a file to targets at places.
 struct FreeFormFit {
@@ -63,14 +48,14 @@ struct FreeFormFit {
 /// @throws InvalidOption        recipes, whose data are not control points; `pin` is not a list
 /// @throws UnsupportedTopology  surfaces whose control points are not those of the file: given by coefficients,
 ///                              or polynomial ones beside rational ones
-FreeFormFit fit_free_form(const Common& common, const FitTargets& targets, FitSettings settings, const std::string& pin,
+FreeFormFit fit_free_form(const Source& source, const FitTargets& targets, FitSettings settings, const std::string& pin,
                           Progress& progress);
 
 /// Returns the report of kind "free-form" on the curves and surfaces of a file, or of recipes.
 /// `print_free_form_report` prints a summary of it.
 /// @param tolerances  values of --tolerance
-/// @throws InvalidOption  an invalid tolerance, options that are only for meshes
-nlohmann::ordered_json analyze_free_form(const Common& common, const std::vector<std::string>& tolerances,
+/// @throws InvalidOption  an invalid tolerance
+nlohmann::ordered_json analyze_free_form(const Source& source, const std::vector<std::string>& tolerances,
                                          Progress& progress);
 void print_free_form_report(const nlohmann::ordered_json& report);
 

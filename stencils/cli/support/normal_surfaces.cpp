@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -88,35 +87,6 @@ NormalMesh level_of_all(const std::vector<NormalSurface>& surfaces, int levels) 
 
 }  // namespace
 
-bool is_normal_job(const Common& common) {
-  if (is_recipe_job(common)) {
-    Common quiet = common;
-    quiet.quiet = true;
-    const std::vector<Recipe> recipes = load_recipes(quiet);
-    return std::ranges::any_of(recipes, [](const Recipe& recipe) { return recipe.normal_triangles() != nullptr; }) &&
-           std::ranges::none_of(recipes, [](const Recipe& recipe) { return recipe.surface() != nullptr; });
-  }
-  for (const auto& entry : geometric_registry<NormalMesh>)
-    if (common.scheme == entry.name) return true;
-  return false;
-}
-
-void check_normal_job(const Common& common, bool closed) {
-  if (is_recipe_job(common)) {
-    refuse_mesh_options(common);
-    if (closed) throw InvalidOption("--closed is for curves");
-    return;
-  }
-  const std::array given{
-      std::pair{"--boundary", !common.boundary.empty()}, std::pair{"--creasing", !common.creasing.empty()},
-      std::pair{"--triangles", !common.triangles.empty()}, std::pair{"--face-varying", !common.face_varying.empty()}};
-  for (const auto& [name, is_given] : given)
-    if (is_given)
-      throw InvalidOption(fmt::format("{} is for subdivision schemes; {} has no such rule", name, common.scheme));
-  if (closed) throw InvalidOption("--closed is for curves; " + common.scheme + " is for meshes");
-  normal_scheme(common);
-}
-
 NormalSurface load_normal_surface(const Common& common, const Recipe& recipe, Progress& progress) {
   const NormalTriangles& triangles = *recipe.normal_triangles();
   Common own = common;
@@ -141,17 +111,17 @@ NormalSurface load_normal_surface(const Common& common, const Recipe& recipe, Pr
   }
 }
 
-std::vector<NormalSurface> load_normal_surfaces(const Common& common, Progress& progress) {
+std::vector<NormalSurface> load_normal_surfaces(const Source& source, Progress& progress) {
   std::vector<NormalSurface> result;
-  if (!is_recipe_job(common)) {
-    result.push_back(of_mesh(common, progress));
+  if (!source.recipes) {
+    result.push_back(of_mesh(source.common, progress));
     return result;
   }
-  limit_threads(common);
-  const std::vector<Recipe> recipes = load_recipes(common);
-  for (const Recipe& recipe : recipes)
-    if (recipe.normal_triangles()) result.push_back(load_normal_surface(common, recipe, progress));
-  tell_left_out(common, recipes, Sampled::normal_triangles);
+  limit_threads(source.common);
+  tell_warnings(source);
+  for (const Recipe& recipe : *source.recipes)
+    if (recipe.normal_triangles()) result.push_back(load_normal_surface(source.common, recipe, progress));
+  tell_left_out(source, Sampled::normal_triangles);
   return result;
 }
 
@@ -168,11 +138,12 @@ std::string why_no_normal_surface(const Common& common, const Mesh& mesh) {
 
 int write_normal_surface(const NormalJob& job) {
   check_output_path(job.output, {".obj", ".ply"});
+  const Common& common = job.source->common;
   if (!job.matrix.empty())
     throw InvalidOption(fmt::format("cannot write {}: {}: it is not linear: there is no matrix", job.matrix,
-                                    is_recipe_job(*job.common) ? job.common->mesh : job.common->scheme));
-  Progress progress(job.common->quiet);
-  const std::vector<NormalSurface> surfaces = load_normal_surfaces(*job.common, progress);
+                                    job.source->recipes ? common.mesh : common.scheme));
+  Progress progress(common.quiet);
+  const std::vector<NormalSurface> surfaces = load_normal_surfaces(*job.source, progress);
   progress.step("points");
   NormalMesh level = level_of_all(surfaces, job.levels);
   Index patches = 0;
@@ -185,7 +156,7 @@ int write_normal_surface(const NormalJob& job) {
   if (job.normals) out.normals = std::move(level.normals);
   write_mesh(job.output, out, progress.bytes_written());
   progress.step("");
-  if (!job.common->quiet)
+  if (!common.quiet)
     fmt::print("{}: {} points of level {}, {} patches\n", job.output, out.positions.rows(), job.levels, patches);
   return 0;
 }

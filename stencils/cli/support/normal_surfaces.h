@@ -2,20 +2,11 @@
 #pragma once
 // Surfaces through points and normals on the command line: nonlinear schemes on triangle meshes with the
 // normals of an OBJ, or recipes of the kinds `nielson` and `piper`.
-#include "support/common.h"
+#include "support/source.h"
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/geometric/placed_surface.h"
-#include "sublimit/stencils/recipes/detail/recipe.h"
 
 namespace sublimit::cli {
-
-/// Returns true if `common.scheme` names such a scheme, or if all surfaces of a file of recipes are of these
-/// kinds. From files that also have linear surfaces they are left out.
-bool is_normal_job(const Common& common);
-
-/// Checks the options of such a job.
-/// @throws InvalidOption  options that are for subdivision schemes or curves, unknown options of the scheme
-void check_normal_job(const Common& common, bool closed);
 
 struct NormalSurface {
   Common common;  ///< mesh and scheme, for messages
@@ -27,7 +18,7 @@ struct NormalSurface {
 /// @throws InvalidMesh, UnsupportedTopology  a mesh that the scheme does not take; the message names it or its
 ///                                           recipe
 /// @throws FormatError, IoError              a mesh of a recipe that cannot be read
-std::vector<NormalSurface> load_normal_surfaces(const Common& common, Progress& progress);
+std::vector<NormalSurface> load_normal_surfaces(const Source& source, Progress& progress);
 /// Loads the surface of a recipe of kind `nielson` or `piper`.
 NormalSurface load_normal_surface(const Common& common, const Recipe& recipe, Progress& progress);
 
@@ -36,7 +27,7 @@ std::string why_no_normal_surface(const Common& common, const Mesh& mesh);
 
 /// Arguments of `refine` and `limit`, which write points of the surface.
 struct NormalJob {
-  const Common* common;
+  const Source* source;
   int levels = 0;
   std::string output, matrix;  ///< matrix may be empty
   bool normals = true;         ///< write them

@@ -7,24 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "support/normal_surfaces.h"
-#include "sublimit/io/detail/file_extension.h"
 
 namespace sublimit::cli {
 
-bool is_recipe_job(const Common& common) { return common.scheme.empty() && file_extension(common.mesh) == ".json"; }
-
-std::vector<Recipe> load_recipes(const Common& common) {
-  std::vector<Recipe> recipes = read_recipes(common.mesh);
-  if (!common.quiet)
-    for (const Recipe& recipe : recipes)
-      for (const std::string& note : recipe.notes)
-        fmt::print(stderr, "sublimit: warning: {}: {}\n", recipe.place, note);
-  return recipes;
+void tell_notes(const std::vector<Recipe>& recipes) {
+  for (const Recipe& recipe : recipes)
+    for (const std::string& note : recipe.notes) fmt::print(stderr, "sublimit: warning: {}: {}\n", recipe.place, note);
 }
 
-void tell_left_out(const Common& common, const std::vector<Recipe>& recipes, Sampled taken) {
-  if (common.quiet) return;
-  for (const Recipe& recipe : recipes) {
+void tell_left_out(const Source& source, Sampled taken) {
+  if (source.common.quiet) return;
+  for (const Recipe& recipe : *source.recipes) {
     const char* why = nullptr;
     if (recipe.surface()) {
       if (taken == Sampled::curves) why = "a surface; without --curves it is sampled";
@@ -87,7 +80,9 @@ void describe_normal_triangles(RecipeWords& words, const NormalSurface& surface,
 
 }  // namespace
 
-void print_recipes(const Common& common, const std::vector<Recipe>& recipes, bool json) {
+void print_recipes(const Source& source, bool json) {
+  const Common& common = source.common;
+  const std::vector<Recipe>& recipes = *source.recipes;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   std::string text = fmt::format("{}\n  {} recipes\n", common.mesh, recipes.size());
   Index face = 0, segment = 0;  // of those before
