@@ -17,6 +17,7 @@
 
 namespace sublimit {
 
+/// An object and the fields of it that have been read.
 class JsonObject {
  public:
   /// @param value  must outlive this
@@ -25,9 +26,13 @@ class JsonObject {
   JsonObject(const JsonValue& value, std::string place, std::string path = "");
   JsonObject(const JsonValue&&, std::string, std::string = "") = delete;
 
+  /// Returns the start of messages.
   const std::string& place() const { return place_; }
+  /// Returns the object as it was read.
   const JsonValue& value() const { return *value_; }
 
+  /// Throws an error about a field.
+  /// @param what  what is wrong, and what would be right
   /// @throws FormatError
   [[noreturn]] void fail(std::string_view field, const std::string& what) const;
   /// To be called after all reads: checks that there are no other fields.
@@ -38,29 +43,43 @@ class JsonObject {
   /// Returns the fields that may be meant by a misspelt one, nearest first.
   std::vector<std::string> nearest(const std::string& field) const;
 
+  // Below, a field of another kind is a FormatError, and so is one that is missing unless a value is given instead.
+
+  /// Returns true if there is such a field, which counts as read.
   bool has(std::string_view field);
   /// Returns the value of a field.
   /// @param what  what it should be, for the message
   const JsonValue& required(const std::string& field, const std::string& what);
   const JsonValue& required(const std::string& field, const std::string& what, JsonValue::Type type);
 
+  /// Returns a number, or a ratio in quotes.
   ExactNumber number(const std::string& field);
+  /// Returns a number, or another if it is missing.
   double number_or(const std::string& field, double otherwise);
+  /// Returns a whole number from `least` to `most`.
   int integer(const std::string& field, int least, int most);
+  /// Returns such a number, or another if it is missing.
   int integer_or(const std::string& field, int least, int most, int otherwise);
+  /// Returns true or false, or another value if it is missing.
   bool flag_or(const std::string& field, bool otherwise);
+  /// Returns a text.
+  /// @param what  what it should be, for the message
   std::string string(const std::string& field, const std::string& what);
   /// Returns the number of a field's word among `words`.
   std::size_t word(const std::string& field, std::span<const char* const> words);
+  /// Returns such a number, or another if the field is missing.
   std::size_t word_or(const std::string& field, std::span<const char* const> words, std::size_t otherwise);
 
+  /// Returns a list of numbers.
   std::vector<double> numbers(const std::string& field);
   /// Returns `count` numbers.
   std::vector<double> numbers(const std::string& field, std::size_t count);
   /// Returns a list of integers.
   /// @param what  what each of them is, for the message: "a vertex"
   std::vector<int> integers(const std::string& field, int least, int most, const char* what = "a whole number");
+  /// Returns `count` integers.
   std::vector<int> integers(const std::string& field, std::size_t count, int least, int most);
+  /// Returns `count` flags, or all of them as `otherwise` if they are missing.
   std::vector<bool> flags_or(const std::string& field, std::size_t count, bool otherwise);
 
   /// Returns the path of an entry in a list: "points[3]".

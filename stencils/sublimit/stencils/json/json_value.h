@@ -9,6 +9,7 @@
 
 namespace sublimit {
 
+/// A value, with those that it holds.
 struct JsonValue {
   enum class Type { null, boolean, number, string, array, object };
   Type type = Type::null;
@@ -18,6 +19,7 @@ struct JsonValue {
   std::vector<JsonValue> items;
   std::vector<std::string> keys;  ///< keys of an object, one for each item
 
+  /// Returns the value of a key of an object; null if there is none.
   const JsonValue* find(std::string_view key) const;
 };
 
