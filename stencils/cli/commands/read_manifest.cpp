@@ -50,9 +50,6 @@ BakeJob read_job(const std::string& text_of_line, const std::string& manifest, s
   };
   Common& common = job.common;
   path("mesh", common.mesh), text("scheme", common.scheme), path("output", job.output);
-  for (const auto& [key, given] :
-       {std::pair("mesh", &common.mesh), std::pair("scheme", &common.scheme), std::pair("output", &job.output)})
-    if (given->empty()) line.required(key, "a text");
   path("at", job.at), path("tessellation", job.tessellation);
   whole("levels", job.levels), whole("grid", job.grid);
   job.limit = line.flag_or("limit", job.limit);
@@ -76,6 +73,9 @@ BakeJob read_job(const std::string& text_of_line, const std::string& manifest, s
       common.options.push_back(options.keys[i] + "=" + value.text);
     }
   }
+  for (const auto& [key, given] :
+       {std::pair("mesh", &common.mesh), std::pair("scheme", &common.scheme), std::pair("output", &job.output)})
+    if (given->empty()) line.required(key, "a text");
   line.finish();
   return job;
 }

@@ -173,7 +173,7 @@ std::vector<LimitRows> LimitMap::Parts::found_control_limits() const {
   for (Index v = 0; v < count; ++v)
     if (!level.topology().is_isolated(Vertex{v})) {
       vertices.push_back(v);
-      centres.push_back(first_side(level, level.topology().outgoing(Vertex{v})));
+      centres.push_back(first_side(level, level.topology().fans(Vertex{v}).front()));
     }
   try {
     LimitCache cache(*preparing);
