@@ -104,6 +104,7 @@ void load_without_scheme(Source& source, const Takes& takes) {
   for (size_t i = 0; i < takes.kinds.size(); ++i)
     taken += (i == 0 ? "" : "; ") + std::string(words_of(takes.kinds[i]).plural);
   taken = fmt::format("; `sublimit {}` takes {}", takes.verb, taken);
+  if (source.kind == SourceKind::curvatures) taken.clear();  // they are for one subcommand, which is named
   if (source.recipes && source.kind == SourceKind::normals)
     throw UnsupportedTopology(
         source.common.mesh +

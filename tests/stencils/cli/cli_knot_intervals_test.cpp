@@ -57,9 +57,9 @@ TEST(CliKnotIntervals, AreReadFromTheSidecar) {
   };
   EXPECT_EQ((refined(tagged) - refined(plain)).norm(), 0);
   directory.write("plain.json", R"({"knotIntervals": [1, 2.5], "knotIntervalEdges": [0, 1, 0]})");
-  expect_failure(sublimit({"info", plain}), 3, {"knotIntervalEdges has 3 vertices", "should have 4"});
+  expect_failure(sublimit({"info", plain}), 3, {"knotIntervalEdges: has 3 vertices", "should have 4"});
   directory.write("plain.json", R"({"knotIntervals": [-1], "knotIntervalEdges": [0, 1]})");
-  expect_failure(sublimit({"info", plain}), 3, {"knotIntervals[0] is -1", "positive"});
+  expect_failure(sublimit({"info", plain}), 3, {"knotIntervals[0]: is -1", "positive"});
   directory.write("plain.json", R"({"knotIntervals": [1], "knotIntervalEdges": [0, 7]})");
   expect_failure(sublimit({"info", plain}), 3, {"no face has an edge between vertices 0 and 7"});
   directory.write("plain.json", R"({"knotIntervalEdges": [0, 1]})");

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way to the limit at a place.
-#include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/limit/detail/eigen_structure.h"
 #include "sublimit/surface/detail/limit_map_parts.h"
 
 namespace sublimit {
@@ -20,17 +19,17 @@ const char* name(Rule rule) {
   return names[size_t(rule)];
 }
 
-/// Eigenvalues of the rows of S from a piece to its child, by descending modulus: 1, and those of differences.
+/// Eigenvalues of the rows of S from a piece to its child, by descending modulus: 1, and those of differences. Those
+/// that rounding has split are one, as often as there are.
 std::vector<std::complex<double>> spectrum_of(const PieceLink& link) {
   if (!link.repeats || link.block.is_large()) return {};
-  const Eigen::VectorXcd values = eigenvalues(Eigen::MatrixXd(link.block.differences()));
-  std::vector<std::complex<double>> all(values.begin(), values.end());
-  // Of a conjugate pair, whose moduli round differently, the one above the axis first.
-  std::ranges::sort(all, [](const auto& a, const auto& b) {
-    const double difference = std::abs(a) - std::abs(b);
-    return std::abs(difference) > 1e-12 * std::abs(a) ? difference > 0 : a.imag() > b.imag();
-  });
-  all.insert(all.begin(), 1.0);
+  const EigenStructure structure =
+      eigen_structure(Eigen::MatrixXd(link.block.differences()).cast<std::complex<double>>());
+  std::vector<std::complex<double>> all{1.0};
+  for (const EigenCluster& cluster : structure.clusters) {
+    const bool is_real = std::abs(cluster.value.imag()) <= cluster_tolerance * std::abs(cluster.value);
+    all.insert(all.end(), size_t(cluster.multiplicity), is_real ? cluster.value.real() : cluster.value);
+  }
   return all;
 }
 
