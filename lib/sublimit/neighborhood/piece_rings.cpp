@@ -10,21 +10,27 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/neighborhood/piece_walk.h"
 #include "sublimit/scheme/detail/mask_reach.h"
 
 namespace sublimit {
 namespace {
 
-/// A level after one period.
+/// The steps of some levels that follow each other.
+std::vector<LevelStep> steps_of(std::span<const Level> levels) {
+  std::vector<LevelStep> steps;
+  for (const Level& level : levels)
+    for (const Refinement& step : level.steps) steps.push_back({&step, level.number - 1});
+  return steps;
+}
+
+/// A labelled level after one period.
 struct Refined {
   SparseMatrix S;
   std::vector<LevelStep> steps;
-  explicit Refined(const std::vector<Level>& period) : S(period[0].S) {
-    for (size_t k = 0; k < period.size(); ++k) {
-      if (k > 0) S = product(period[k].S, S);
-      for (const Refinement& step : period[k].steps) steps.push_back({&step, period[k].number - 1});
-    }
+  explicit Refined(const std::vector<Level>& period) : S(period[0].S), steps(steps_of(period)) {
+    for (size_t k = 1; k < period.size(); ++k) S = product(period[k].S, S);
   }
 };
 
@@ -64,8 +70,8 @@ Part walked_part(const Level& level, const Piece& piece, int rings) {
 
 /// Whether some rings around a piece decide all points in as many rings around its children: these have the same
 /// weights if everything beyond is cut off.
-bool are_enough(const Scheme<double>& scheme, const LabelledLevel& labelled, const Refined& whole, const Piece& piece,
-                int rings) {
+bool decide_children(const Scheme<double>& scheme, const LabelledLevel& labelled, const Refined& whole,
+                     const Piece& piece, int rings) {
   PieceWalker walker;
   const auto walk = [&](const Level& level, const Piece& p) {
     return walker.walk(level.topology(), level.sharpness, p, rings, 0);
@@ -73,25 +79,44 @@ bool are_enough(const Scheme<double>& scheme, const LabelledLevel& labelled, con
   std::vector<Index> points = walk(labelled.level, piece).vertices;
   std::sort(points.begin(), points.end());
   const Part around = walked_part(labelled.level, piece, rings);
-  std::vector<Level> period;
-  for (int k = 0; k < scheme.period; ++k) period.push_back(next_level(scheme, k == 0 ? around.level : period.back()));
-  const Refined own(period);
+  std::vector<Level> levels{around.level};
+  for (int k = 0; k < scheme.period; ++k) levels.push_back(next_topology(scheme, levels.back(), [](const auto&...) {}));
+  const std::vector<LevelStep> steps = steps_of(std::span(levels).subspan(1));
   const auto start = std::lower_bound(around.halves.begin(), around.halves.end(), index(piece.start));
   const Piece in_part{piece.kind, HalfEdge{static_cast<Index>(start - around.halves.begin())}};
   const std::vector<PieceChild> those = children(piece, labelled.level.topology(), whole.steps),
-                                these = children(in_part, around.level.topology(), own.steps);
+                                these = children(in_part, around.level.topology(), steps);
   if (those.size() != these.size()) return false;
+  std::vector<PieceWalk> walks;
+  std::vector<Index> rows;
+  for (size_t c = 0; c < these.size(); ++c) {
+    const PieceWalk& own = walks.emplace_back(walk(levels.back(), these[c].piece));
+    if (own.signature != walk(labelled.period.back(), those[c].piece).signature) return false;
+    rows.insert(rows.end(), own.vertices.begin(), own.vertices.end());
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  const SparseMatrix S = local_patch_detail::period_rows(scheme, levels, std::move(rows));
   const auto is_inside = [&](const auto& term) { return std::ranges::binary_search(points, term.first); };
-  for (size_t c = 0; c < those.size(); ++c) {
-    const PieceWalk a = walk(labelled.period.back(), those[c].piece), b = walk(period.back(), these[c].piece);
-    if (a.signature != b.signature) return false;
-    for (size_t s = 0; s < a.vertices.size(); ++s) {
-      const std::map<Index, double> row = row_of(whole.S, a.vertices[s], nullptr);
+  for (size_t c = 0; c < these.size(); ++c) {
+    const std::vector<Index> vertices = walk(labelled.period.back(), those[c].piece).vertices;
+    for (size_t s = 0; s < vertices.size(); ++s) {
+      const std::map<Index, double> row = row_of(whole.S, vertices[s], nullptr);
       if (!std::ranges::all_of(row, is_inside)) return false;
-      if (!is_alike(row, row_of(own.S, b.vertices[s], &around.vertices))) return false;
+      if (!is_alike(row, row_of(S, walks[c].vertices[s], &around.vertices))) return false;
     }
   }
   return true;
+}
+
+/// The same; false too if a mask at the rim has no rule for it.
+bool are_enough(const Scheme<double>& scheme, const LabelledLevel& labelled, const Refined& whole, const Piece& piece,
+                int rings) {
+  try {
+    return decide_children(scheme, labelled, whole, piece, rings);
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 std::vector<Piece> pieces_of(const Scheme<double>& scheme, const Topology& t, Face face) {

@@ -18,7 +18,7 @@ struct [[nodiscard]] LimitStencil {
   LimitStatus status = LimitStatus::regular;
   std::vector<Index> vertices;  ///< ascending
   /// Rows for the position, then du, dv, then duu, duv, dvv, as far as asked for and existing; one column per vertex.
-  /// The weights of the position sum to 1, those of derivatives to 0.
+  /// The weights of the position sum to 1 up to rounding, those of derivatives to 0.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights;
   /// Two rows that span the tangent plane, their cross product along the normal: du and dv if these exist,
   /// characteristic tangents at extraordinary vertices, followed by the next modes, for control points that make the

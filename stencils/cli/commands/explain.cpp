@@ -67,7 +67,7 @@ std::string explanation(const LimitMap& map, const Points& points, const Place& 
   }
   if (!path.spectrum.empty()) text += "eigenvalues at the corner: " + text_of(path.spectrum) + "\n";
   if (path.vertex >= 0)
-    text += fmt::format("position: the limit of vertex {} ({}), as `limit` has it\n", path.vertex, path.rule);
+    text += fmt::format("weights: those of the limit of vertex {} ({}), as `limit` has them\n", path.vertex, path.rule);
   const LimitStencil& stencil = path.stencil;
   double sum = 0, negative = 0;
   Eigen::RowVector3d point = Eigen::RowVector3d::Zero();

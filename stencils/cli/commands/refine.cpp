@@ -63,7 +63,7 @@ int run(const RefineOptions& options) {
     case SourceKind::normals:
       return write_normal_surface({&source, options.levels, options.output, options.matrix});
     case SourceKind::patches:
-      if (options.no_tags) throw InvalidOption("--no-tags is for meshes; free-form surfaces have none");
+      if (options.no_tags) throw InvalidOption("--no-tags is for meshes; free-form surfaces have no tags");
       return refine_free_form(source, options.levels, options.output, options.matrix), 0;
     default:
       return refine_mesh(options);

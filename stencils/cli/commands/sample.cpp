@@ -170,8 +170,12 @@ void sample_mesh(const SampleJob& job, const Source&, SampleReader* reader, Prog
 /// Prints the way to the limit at one place of a mesh.
 int explain(const SampleOptions& options) {
   const SampleJob& job = options.job;
-  if (!job.output.empty() || !job.at.empty() || !options.grid.empty() || !options.random_count.empty())
-    throw InvalidOption("--explain prints one place; leave out --at, --grid, --random and -o");
+  if (!job.output.empty() || !job.at.empty() || !options.grid.empty() || !options.random_count.empty() ||
+      !options.seed.empty() || job.derivatives > 0 || job.curvature || job.clamp || job.curves)
+    throw InvalidOption(
+        "--explain prints how the point at one place comes about; leave out --at, --grid, --random, --seed, "
+        "--derivatives, --curvature, --clamp, --curves and -o");
+  limit_memory(options.memory_limit);
   const Place place = explained_place(options.explain);
   (void)load_source(job.common, {"sample --explain", {SourceKind::mesh}});
   Progress progress(job.common.quiet);
@@ -232,7 +236,7 @@ Command add_sample(CLI::App& app) {
                       "FACE,U,V: print the way to the limit at one place: pieces, blocks, polynomial or eigenvector, "
                       "weights; nothing is written");
   command->add_option("-o,--output", job.output,
-                      "OUT.csv: face,u,v,status,x,y,z[,derivatives],nx,ny,nz (needed but for --explain)");
+                      "OUT.csv: face,u,v,status,x,y,z[,derivatives],nx,ny,nz (required unless --explain)");
   add_closed(*command, job.common);
   command->add_flag("--curves", job.curves, "Of files that have both: the curves (default: the surfaces)");
   add_memory_limit(*command, options->memory_limit);

@@ -28,7 +28,7 @@ struct KindWords {
 constexpr KindWords kind_words[] = {
     {SourceKind::mesh, "meshes under a scheme with masks", "refines meshes", "refines meshes"},
     {SourceKind::curves, "polygons under a scheme of curves", "refines curves", "refines curves"},
-    {SourceKind::normals, "meshes with normals under nielson or piper, and recipes of these kinds",
+    {SourceKind::normals, "meshes with normals and recipes of nielson or piper",
      "makes surfaces through points with normals and has no matrix; it is for `sublimit sample`, `refine`, `limit` "
      "and `step`",
      "has no such rule"},
@@ -81,8 +81,20 @@ bool has_free_form(const std::string& path) {
   return false;
 }
 
+/// "`sublimit closest` takes meshes under a scheme with masks, free-form surfaces ..."
+std::string taken_by(const Takes& takes) {
+  std::string taken;
+  for (size_t i = 0; i < takes.kinds.size(); ++i)
+    taken += (i == 0 ? "" : ", ") + std::string(words_of(takes.kinds[i]).plural);
+  return fmt::format("`sublimit {}` takes {}", takes.verb, taken);
+}
+
 void load_without_scheme(Source& source, const Takes& takes) {
   const std::string& path = source.common.mesh;
+  const bool any_shapes = std::ranges::any_of(
+      takes.kinds, [](SourceKind kind) { return kind == SourceKind::patches || kind == SourceKind::normals; });
+  if (!any_shapes && !takes.scheme_optional)
+    throw InvalidOption(fmt::format("-s SCHEME is missing: {} (`sublimit schemes` lists them)", taken_by(takes)));
   if (file_extension(path) == ".json") {
     source.recipes = read_recipes(path);
     source.kind = kind_of_recipes(*source.recipes);
@@ -100,15 +112,16 @@ void load_without_scheme(Source& source, const Takes& takes) {
 }
 
 [[noreturn]] void refuse_kind(const Source& source, const Takes& takes) {
-  std::string taken;
-  for (size_t i = 0; i < takes.kinds.size(); ++i)
-    taken += (i == 0 ? "" : "; ") + std::string(words_of(takes.kinds[i]).plural);
-  taken = fmt::format("; `sublimit {}` takes {}", takes.verb, taken);
+  std::string taken = "; " + taken_by(takes);
   if (source.kind == SourceKind::curvatures) taken.clear();  // they are for one subcommand, which is named
   if (source.recipes && source.kind == SourceKind::normals)
     throw UnsupportedTopology(
         source.common.mesh +
-        ": none of a surface that is linear in its points: nielson and piper are not, and have no matrix" + taken);
+        ": no recipe is of a surface that is linear in its points: nielson and piper are not, and have no matrix" +
+        taken);
+  if (source.recipes)
+    throw InvalidOption(source.common.mesh + " holds recipes of curves or surfaces, which have no scheme" + taken);
+  if (source.kind == SourceKind::curves) taken += " (`sublimit schemes` lists all)";
   const std::string& name = source.has_shapes() ? source.common.mesh : source.common.scheme;
   throw InvalidOption(name + " " + words_of(source.kind).why_not + taken);
 }
@@ -143,7 +156,8 @@ void refuse_other_options(const Source& source) {
   const std::string name = source.has_shapes() || given.scheme.empty() ? "" : given.scheme + " ";
   for (const auto& row : options)
     if (row.is_given && !row.is_right)
-      throw InvalidOption(fmt::format("{} is for {}; {}{}", row.option, row.owner, name,
+      throw InvalidOption(fmt::format("{} is for {}{}; {}{}", row.option, row.owner,
+                                      source.has_shapes() ? ", which need -s SCHEME" : "", name,
                                       words_of(source.has_shapes() ? SourceKind::patches : source.kind).no_rule));
 }
 

@@ -117,6 +117,21 @@ TEST(PieceRings, OfAUsersSchemeThatReachesFar) {
   expect_limit_of_children(scheme, grid(6, 5));
 }
 
+TEST(PieceRings, OfASchemeWithoutARuleForBorders) {
+  Scheme<double> scheme = far_reaching();
+  scheme.steps.pop_back();
+  const auto closed = [](const auto& site, const Ring<double>& ring) {
+    if (!ring.is_closed()) throw InvalidParameter("no rule for borders");
+    return site;
+  };
+  const auto edge = scheme.steps[0].masks.wide_edge;
+  scheme.steps[0].masks.wide_edge = [=](const WideEdgeSite<double>& e) { return edge(closed(e, e.tail_ring())); };
+  const auto face = scheme.steps[0].masks.wide_face;
+  scheme.steps[0].masks.wide_face = [=](const WideFaceSite<double>& f) { return face(closed(f, f.ring(0))); };
+  EXPECT_GT(piece_rings(scheme), 2);
+  expect_limit_of_children(scheme, torus(9, 7));
+}
+
 TEST(PieceRings, AreThoseOfTheSupport) {
   // The points of a face after some levels depend on nothing else.
   for (const TestedScheme& tested : schemes_and_degrees()) {

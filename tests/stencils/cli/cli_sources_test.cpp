@@ -21,11 +21,12 @@ TEST(CliSources, SubcommandsSayWhichTheyTake) {
   const std::string out = (directory / "o.obj").string();
   const char* const meshes = "takes meshes under a scheme with masks";
   expect_failure(sublimit({"tessellate", patch, "--chord", "1", "-o", out}), 2,
-                 {"s.obj has free-form", "`sublimit tessellate`", meshes});
-  expect_failure(sublimit({"tessellate", mesh, "--chord", "1", "-o", out}), 2, {"-s SCHEME is missing", "m.obj"});
+                 {"-s SCHEME is missing", "`sublimit tessellate`", meshes});
+  expect_failure(sublimit({"tessellate", mesh, "--chord", "1", "-o", out}), 2,
+                 {"-s SCHEME is missing", "`sublimit tessellate`", meshes});
   expect_failure(sublimit({"tessellate", polygon, "-s", "chaikin", "--chord", "1", "-o", out}), 2,
                  {"chaikin refines curves", "`sublimit tessellate`", meshes});
-  expect_failure(sublimit({"info", patch, "--limit"}), 2, {"s.obj", "`sublimit info --limit`", meshes});
+  expect_failure(sublimit({"info", patch, "--limit"}), 2, {"-s SCHEME is missing", "`sublimit info --limit`", meshes});
   const std::string points = directory.write("q.csv", "x,y,z\n0,0,0\n").string();
   expect_failure(sublimit({"closest", mesh, "-s", "nielson", "--points", points, "-o", (directory / "o.csv").string()}),
                  2, {"nielson", "no matrix", "`sublimit closest`", meshes, "recipes"});

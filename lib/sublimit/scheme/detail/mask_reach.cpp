@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <set>
 #include <string>
@@ -11,6 +12,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/scheme/detail/refine_impl.h"
+#include "sublimit/scheme/detail/subdivision_rows.h"
 
 namespace sublimit {
 namespace {
@@ -73,20 +75,29 @@ LabelledLevel labelled(const Scheme<double>& scheme, const Mesh& mesh) {
   return result;
 }
 
-/// Rows of a level's matrix at the corners of the children of a face, by vertices of the whole.
-/// @param number  of each vertex in the whole; null: its own
-std::vector<std::map<Index, double>> child_rows(const Level& child, Index face, const std::vector<Index>* number) {
+/// Vertices of the children of a face, child by child.
+std::vector<Index> child_vertices(const Level& child, Index face) {
   const Topology& t = child.topology();
-  std::vector<std::map<Index, double>> rows;
+  std::vector<Index> vertices;
   for (Index f = 0; f < t.num_faces(); ++f) {
     Index parent = f;
     for (auto step = child.steps.rbegin(); step != child.steps.rend(); ++step) parent = step->face_parent[parent];
     if (parent != face) continue;
-    for (const Index v : t.vertices(Face{f})) {
-      std::map<Index, double>& row = rows.emplace_back();
-      for (SparseMatrix::InnerIterator it(child.S, v); it; ++it)
-        if (it.value() != 0) row[number ? (*number)[it.col()] : Index(it.col())] = it.value();
-    }
+    const std::span<const Index> own = t.vertices(Face{f});
+    vertices.insert(vertices.end(), own.begin(), own.end());
+  }
+  return vertices;
+}
+
+/// Rows of a level's matrix by vertices of the whole.
+/// @param number  of each vertex in the whole; null: its own
+std::vector<std::map<Index, double>> rows_at(const SparseMatrix& S, const std::vector<Index>& vertices,
+                                             const std::vector<Index>* number) {
+  std::vector<std::map<Index, double>> rows;
+  for (const Index v : vertices) {
+    std::map<Index, double>& row = rows.emplace_back();
+    for (SparseMatrix::InnerIterator it(S, v); it; ++it)
+      if (it.value() != 0) row[number ? (*number)[size_t(it.col())] : Index(it.col())] = it.value();
   }
   return rows;
 }
@@ -104,8 +115,21 @@ bool is_alike(const std::vector<std::map<Index, double>>& a, const std::vector<s
 bool are_enough(const Scheme<double>& scheme, const LabelledLevel& labelled, Index face, int rings) {
   const Part around = part(labelled.level, std::span(&face, 1), rings);
   const auto own = std::lower_bound(around.faces.begin(), around.faces.end(), face) - around.faces.begin();
-  return is_alike(child_rows(labelled.period[0], face, nullptr),
-                  child_rows(next_level(scheme, around.level), Index(own), &around.vertices));
+  const Level& whole = labelled.period[0];
+  try {
+    // Of one step masks at the rim, which may have no rule for it, need not be asked.
+    const bool few = scheme.steps.size() == 1;
+    const Level child =
+        few ? next_topology(scheme, around.level, [](const auto&...) {}) : next_level(scheme, around.level);
+    const std::vector<Index> vertices = child_vertices(child, Index(own));
+    std::vector<Index> ascending = vertices;
+    std::sort(ascending.begin(), ascending.end());
+    ascending.erase(std::unique(ascending.begin(), ascending.end()), ascending.end());
+    const SparseMatrix S = few ? subdivision_rows(scheme, around.level, child, ascending) : child.S;
+    return is_alike(rows_at(whole.S, child_vertices(whole, face), nullptr), rows_at(S, vertices, &around.vertices));
+  } catch (const Error&) {
+    return false;  // a mask that sees the rim
+  }
 }
 
 }  // namespace
@@ -117,23 +141,33 @@ std::vector<LabelledLevel> labelled_levels(const Scheme<double>& scheme) {
   steps.preparation.clear();
   const Index face_size = steps.face_size() == 3 ? 3 : 4;
   std::vector<LabelledLevel> levels;
+  // A scheme may have no rule for a border, say. It refines no such meshes then.
+  std::exception_ptr refused;
+  const auto add = [&](const Mesh& mesh) {
+    try {
+      levels.push_back(labelled(steps, mesh));
+    } catch (const Error&) {
+      refused = std::current_exception();
+    }
+  };
   for (const Index n : {Index{5}, Index{7}}) {
     const Mesh closed = bipyramid(n, face_size);
-    levels.push_back(labelled(steps, closed));
+    add(closed);
     Mesh open = closed;
     open.face_sizes.resize(open.face_sizes.size() - 2);
     open.face_vertices.resize(open.face_vertices.size() - 2 * size_t(face_size));
-    levels.push_back(labelled(steps, open));
+    add(open);
     if (steps.sharpening == Sharpening::boundary) continue;
     Mesh creased = closed;  // all around, between the poles
     const Index ring = closed.num_vertices() - 2;
     for (Index i = 0; i < ring; ++i) creased.creases.push_back({i, (i + 1) % ring, infinite_sharpness});
-    levels.push_back(labelled(steps, creased));
+    add(creased);
     if (steps.sharpening != Sharpening::semi_sharp) continue;
     Mesh darts = closed;
     darts.creases = {{0, 1, infinite_sharpness}};
-    levels.push_back(labelled(steps, darts));
+    add(darts);
   }
+  if (levels.empty()) std::rethrow_exception(refused);
   return levels;
 }
 

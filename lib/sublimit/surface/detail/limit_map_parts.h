@@ -178,7 +178,7 @@ struct LimitMap::Parts {
   }
   /// Returns the error for a piece without a limit.
   NoLimit without_limit(const Piece& piece, const std::string& why) const;
-  /// Returns the limit positions of the vertices of `level`, with preparation; empty rows where there is none.
+  /// Returns the limit positions of all vertices of `level`, with preparation; empty if one of them has no limit.
   std::vector<LimitRows> found_control_limits() const;
   ComputedOnce<std::vector<LimitRows>> control_limits_;  // used only with a preparation
   ComputedOnce<Regular> regular_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way to the limit at a place.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -19,15 +20,15 @@ const char* name(Rule rule) {
   return names[size_t(rule)];
 }
 
-/// Eigenvalues of the rows of S from a piece to its child, by descending modulus: 1, and those of differences. Those
-/// that rounding has split are one, as often as there are.
+/// Eigenvalues of the rows of S from a piece to its child, by descending modulus: 1, and those of differences.
+/// Eigenvalues that rounding has split are made equal, and keep their multiplicity.
 std::vector<std::complex<double>> spectrum_of(const PieceLink& link) {
   if (!link.repeats || link.block.is_large()) return {};
   const EigenStructure structure =
       eigen_structure(Eigen::MatrixXd(link.block.differences()).cast<std::complex<double>>());
   std::vector<std::complex<double>> all{1.0};
   for (const EigenCluster& cluster : structure.clusters) {
-    const bool is_real = std::abs(cluster.value.imag()) <= cluster_tolerance * std::abs(cluster.value);
+    const bool is_real = std::abs(cluster.value.imag()) <= std::max(1e-9, cluster_tolerance * std::abs(cluster.value));
     all.insert(all.end(), size_t(cluster.multiplicity), is_real ? cluster.value.real() : cluster.value);
   }
   return all;

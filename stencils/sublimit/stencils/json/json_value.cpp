@@ -49,8 +49,11 @@ class TreeBuilder : public nlohmann::json_sax<json> {
     const std::string message = error.what();
     const std::size_t bracket = message.find("] ");  // behind the name of the exception
     const std::string line = is_line_ ? "" : ":" + format_number(1 + std::count(text_.begin(), last, '\n'));
-    throw FormatError(name_ + line +
-                      ": not JSON: " + (bracket == std::string::npos ? message : message.substr(bracket + 2)));
+    std::string what = bracket == std::string::npos ? message : message.substr(bracket + 2);
+    const std::string own = " at line 1, ";  // of a text that is one line of a file
+    if (const std::size_t at = what.find(own); is_line_ && at != std::string::npos)
+      what.replace(at, own.size(), " at ");
+    throw FormatError(name_ + line + ": not JSON: " + what);
   }
 
  private:
