@@ -25,8 +25,8 @@ TEST(CliExplain, TellsTheWayToAPolynomialAndToAVertex) {
                         "status: regular", "weights of 8 control points", "their sum: 1", "point:"});
   EXPECT_EQ(count_of(inside, "eigenvalues"), 0u);
   const std::string vertex = explained("0,0,0");
-  expect_parts(vertex, {"eigenvector", "eigenvalues at the corner: 1, 0.410097, 0.410097", "the limit of vertex 0 (smooth)",
-                        "status: extraordinary"});
+  expect_parts(vertex, {"eigenvector", "eigenvalues at the corner: 1, 0.410097, 0.410097",
+                        "the limit of vertex 0 (smooth)", "status: extraordinary"});
   EXPECT_EQ(directory.num_files(), 1);
 }
 
