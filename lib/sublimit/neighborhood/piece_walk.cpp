@@ -42,6 +42,7 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
   };
   walk_.rings = rings;
   walk_.apart = apart;
+  const bool manifold = t.is_manifold();
   std::unordered_set<Index> met;  // half-edges of sheets that are apart
   const auto meet = [&](HalfEdge h) {
     bool is_new = false;
@@ -103,6 +104,8 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
           HalfEdge k = t.next(g);
           do {
             put(meet(k));
+            // Faces that share both ends of an edge share the edge, unless it has others that are not walked to.
+            if (!manifold && t.is_nonmanifold(t.edge(k))) put(0xe0000000u);
             k = t.next(k);
           } while (k != g);
           const HalfEdge into = t.prev(g);

@@ -132,6 +132,32 @@ TEST(PieceRings, OfASchemeWithoutARuleForBorders) {
   expect_limit_of_children(scheme, torus(9, 7));
 }
 
+// Two faces back to back, once by themselves, once with other faces at one of their edges, which no vertex opposite
+// sees.
+TEST(PieceRings, TellFacesApartThatShareAllPointsButNotAnEdge) {
+  const Mesh alone = make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}}, {{0, 1, 2, 3}, {3, 2, 1, 0}});
+  const Mesh joined =
+      make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}, {0, 0, 2}, {1, 0, 2}, {0, 0, 3}, {1, 0, 3}},
+                {{0, 1, 2, 3}, {3, 2, 1, 0}, {0, 1, 5, 4}, {1, 0, 6, 7}});
+  const Mesh both = disjoint_union(joined, alone);
+  for (const char* name : {"mid-edge", "mid-edge-habib-warren", "doo-sabin", "averaging", "catmull-clark"}) {
+    const Scheme<double> scheme = *find_scheme(name);
+    const LimitMap of_both(scheme, both), of_alone(scheme, alone);
+    for (const double u : {0.0, 0.3, 1.0})
+      for (const double v : {0.0, 0.6, 1.0}) {
+        for (Index face = 0; face < 4; ++face) (void)of_both.stencil({face, u, v});  // their types are there first
+        for (const Index face : {0, 1}) {
+          const LimitStencil with = of_both.stencil({4 + face, u, v}), without = of_alone.stencil({face, u, v});
+          ASSERT_EQ(with.vertices.size(), without.vertices.size()) << name;
+          for (size_t i = 0; i < with.vertices.size(); ++i) {
+            EXPECT_EQ(with.vertices[i], without.vertices[i] + joined.num_vertices()) << name;
+            EXPECT_NEAR(with.weights(0, Eigen::Index(i)), without.weights(0, Eigen::Index(i)), 1e-12) << name;
+          }
+        }
+      }
+  }
+}
+
 TEST(PieceRings, AreThoseOfTheSupport) {
   // The points of a face after some levels depend on nothing else.
   for (const TestedScheme& tested : schemes_and_degrees()) {

@@ -188,6 +188,11 @@ std::vector<LimitRows> LimitMap::Parts::found_control_limits() const {
 std::optional<LimitRows::Row> LimitMap::Parts::vertex_position(const Target& target) const {
   const std::optional<Centre> at = centre(target);
   if (!at || at->kind != Centre::Kind::vertex) return std::nullopt;
+  // Left to do: at a vertex of two faces the parameters of mid-edge surfaces lead to the middle of the face opposite.
+  const Topology& t = base().topology();
+  const HalfEdge other = t.ccw(at->start);
+  const bool two_faces = exists(other) && other != at->start && t.ccw(other) == at->start;
+  if (two_faces && scheme.is_dual() && scheme.period > 1) return std::nullopt;
   if (!prepared) return corners.position(at->start);
   const Refinement& step = prepared->steps[0];
   const Vertex v = step.topology.tail(at->start);
