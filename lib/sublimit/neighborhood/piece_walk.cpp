@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <unordered_set>
 
 #include "sublimit/scheme/detail/sheet_part.h"
@@ -43,7 +44,8 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
   walk_.rings = rings;
   walk_.apart = apart;
   const bool manifold = t.is_manifold();
-  std::unordered_set<Index> met;  // half-edges of sheets that are apart
+  std::map<Edge, HalfEdge> first_at;  // non-manifold edges, by which face they were met
+  std::unordered_set<Index> met;      // half-edges of sheets that are apart
   const auto meet = [&](HalfEdge h) {
     bool is_new = false;
     const Index own = slot(h, is_new);
@@ -104,8 +106,9 @@ const PieceWalk& PieceWalker::walk(const Topology& t, const Sharpness& sharpness
           HalfEdge k = t.next(g);
           do {
             put(meet(k));
-            // Faces that share both ends of an edge share the edge, unless it has others that are not walked to.
-            if (!manifold && t.is_nonmanifold(t.edge(k))) put(0xe0000000u);
+            // Two faces that share both ends of an edge share the edge, unless it has others that are not walked to.
+            if (!manifold && t.is_nonmanifold(t.edge(k)) && first_at.try_emplace(t.edge(k), k).first->second != k)
+              put(0xe0000000u);
             k = t.next(k);
           } while (k != g);
           const HalfEdge into = t.prev(g);
