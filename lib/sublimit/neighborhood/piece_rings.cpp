@@ -2,8 +2,6 @@
 #include "sublimit/neighborhood/piece_rings.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,22 +31,6 @@ struct Refined {
     for (size_t k = 1; k < period.size(); ++k) S = product(period[k].S, S);
   }
 };
-
-/// A row by vertices of the whole.
-/// @param number  of each vertex in the whole; null: its own
-std::map<Index, double> row_of(const SparseMatrix& S, Index v, const std::vector<Index>* number) {
-  std::map<Index, double> row;
-  for (SparseMatrix::InnerIterator it(S, v); it; ++it)
-    if (it.value() != 0) row[number ? (*number)[size_t(it.col())] : Index(it.col())] = it.value();
-  return row;
-}
-
-bool is_alike(const std::map<Index, double>& a, const std::map<Index, double>& b) {
-  constexpr double rounding = 1e-12;  // sums may have another order
-  return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
-    return x.first == y.first && std::abs(x.second - y.second) <= rounding;
-  });
-}
 
 /// The faces that a walk of some rings around a piece comes to.
 Part walked_part(const Level& level, const Piece& piece, int rings) {
@@ -101,15 +83,15 @@ bool decide_children(const Scheme<double>& scheme, const LabelledLevel& labelled
   for (size_t c = 0; c < these.size(); ++c) {
     const std::vector<Index> vertices = walk(labelled.period.back(), those[c].piece).vertices;
     for (size_t s = 0; s < vertices.size(); ++s) {
-      const std::map<Index, double> row = row_of(whole.S, vertices[s], nullptr);
+      const MaskRow row = row_of(whole.S, vertices[s]);
       if (!std::ranges::all_of(row, is_inside)) return false;
-      if (!is_alike(row, row_of(S, walks[c].vertices[s], &around.vertices))) return false;
+      if (!has_same_weights(row, row_of(S, walks[c].vertices[s], &around.vertices))) return false;
     }
   }
   return true;
 }
 
-/// The same; false too if a mask at the rim has no rule for it.
+/// Returns `decide_children`, or false if a mask has no rule for the rim of the part.
 bool are_enough(const Scheme<double>& scheme, const LabelledLevel& labelled, const Refined& whole, const Piece& piece,
                 int rings) {
   try {

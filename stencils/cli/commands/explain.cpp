@@ -38,7 +38,6 @@ Place explained_place(const std::string& text) {
       parts.emplace_back();
     else
       parts.back() += c;
-  Place place;
   if (parts.size() == 3) {
     const auto face = parse_number<Index>(parts[0]);
     const auto u = parse_number<double>(parts[1]), v = parse_number<double>(parts[2]);

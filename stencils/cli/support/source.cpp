@@ -63,7 +63,7 @@ SourceKind kind_of_recipes(const std::vector<Recipe>& recipes) {
 /// Whether an .obj has free-form curves or surfaces; not of a pipe.
 bool has_free_form(const std::string& path) {
   if (file_extension(path) != ".obj") return false;
-  // What is no file, a pipe, can be read once: by the reader of meshes.
+  // A pipe can be read only once: the reader of meshes does that.
   std::error_code ignored;  // of a name too long, say: its reader tells
   if (const auto status = std::filesystem::status(path, ignored);
       std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))

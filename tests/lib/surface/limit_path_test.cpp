@@ -27,7 +27,7 @@ TEST(LimitPath, OfARegularFaceIsItsPolynomial) {
 }
 
 TEST(LimitPath, GoesDownUntilAPolynomialHasThePlace) {
-  // Of a cube's face three quarters of each level are polynomials, the one at the corner never is.
+  // On each level three quarters of a cube's face are polynomials; the quarter at the corner never is.
   const LimitMap cube_map(*find_scheme("catmull-clark"), cube());
   for (const int depth : {1, 3, 20}) {
     const LimitPath path = cube_map.explain({0, std::ldexp(0.75, -depth), std::ldexp(0.6, -depth)});
@@ -55,7 +55,8 @@ TEST(LimitPath, EndsAtAVertexInItsSpectrum) {
     // Doo and Sabin 1978: the subdominant eigenvalue of Catmull and Clark's scheme.
     const double c = std::cos(2 * std::numbers::pi / n);
     const double lambda = (5 + c + std::sqrt((c + 9) * (c + 1))) / 16;
-    for (const int i : {1, 2}) EXPECT_NEAR(std::abs(path.spectrum[size_t(i)] - lambda), 0, 1e-12) << n;
+    constexpr double rounding = 1e-12;  // of a double eigenvalue
+    for (const int i : {1, 2}) EXPECT_LE(std::abs(path.spectrum[size_t(i)] - lambda), rounding) << n;
   }
 }
 

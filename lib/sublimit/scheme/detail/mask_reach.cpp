@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <map>
 #include <set>
 #include <string>
 #include <tuple>
 
 #include "sublimit/base/error.h"
-#include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/scheme/detail/refine_impl.h"
 #include "sublimit/scheme/detail/subdivision_rows.h"
 
@@ -39,8 +37,8 @@ Mesh bipyramid(Index n, Index face_size) {
   return mesh;
 }
 
-/// What is around a face: the sizes of its vertices' fans, whether they are open, and their sharp edges; then those of
-/// the faces beside it.
+/// Lists for each vertex of a face the size of the face, the faces around the vertex, whether it is on a border, and
+/// its sharp edges; then the same for the faces beside it. Faces with equal lists are looked at once.
 using Signature = std::vector<std::tuple<Index, Index, bool, Index>>;
 Signature signature_of(const Level& level, Face face) {
   const Topology& t = level.topology();
@@ -89,35 +87,13 @@ std::vector<Index> child_vertices(const Level& child, Index face) {
   return vertices;
 }
 
-/// Rows of a level's matrix by vertices of the whole.
-/// @param number  of each vertex in the whole; null: its own
-std::vector<std::map<Index, double>> rows_at(const SparseMatrix& S, const std::vector<Index>& vertices,
-                                             const std::vector<Index>* number) {
-  std::vector<std::map<Index, double>> rows;
-  for (const Index v : vertices) {
-    std::map<Index, double>& row = rows.emplace_back();
-    for (SparseMatrix::InnerIterator it(S, v); it; ++it)
-      if (it.value() != 0) row[number ? (*number)[size_t(it.col())] : Index(it.col())] = it.value();
-  }
-  return rows;
-}
-
-bool is_alike(const std::vector<std::map<Index, double>>& a, const std::vector<std::map<Index, double>>& b) {
-  constexpr double rounding = 1e-12;  // sums may have another order
-  return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
-    return std::ranges::equal(x, y, [](const auto& s, const auto& t) {
-      return s.first == t.first && std::abs(s.second - t.second) <= rounding;
-    });
-  });
-}
-
 /// Whether the children of a face have the same rows if only some rings around it are refined.
 bool are_enough(const Scheme<double>& scheme, const LabelledLevel& labelled, Index face, int rings) {
   const Part around = part(labelled.level, std::span(&face, 1), rings);
   const auto own = std::lower_bound(around.faces.begin(), around.faces.end(), face) - around.faces.begin();
   const Level& whole = labelled.period[0];
   try {
-    // Of one step masks at the rim, which may have no rule for it, need not be asked.
+    // If a level has one step, only the needed rows are made: masks may have no rule for the rim of the part.
     const bool few = scheme.steps.size() == 1;
     const Level child =
         few ? next_topology(scheme, around.level, [](const auto&...) {}) : next_level(scheme, around.level);
@@ -126,13 +102,29 @@ bool are_enough(const Scheme<double>& scheme, const LabelledLevel& labelled, Ind
     std::sort(ascending.begin(), ascending.end());
     ascending.erase(std::unique(ascending.begin(), ascending.end()), ascending.end());
     const SparseMatrix S = few ? subdivision_rows(scheme, around.level, child, ascending) : child.S;
-    return is_alike(rows_at(whole.S, child_vertices(whole, face), nullptr), rows_at(S, vertices, &around.vertices));
+    return std::ranges::equal(child_vertices(whole, face), vertices, [&](Index of_whole, Index of_part) {
+      return has_same_weights(row_of(whole.S, of_whole), row_of(S, of_part, &around.vertices));
+    });
   } catch (const Error&) {
     return false;  // a mask that sees the rim
   }
 }
 
 }  // namespace
+
+MaskRow row_of(const SparseMatrix& S, Index v, const std::vector<Index>* number) {
+  MaskRow row;
+  for (SparseMatrix::InnerIterator it(S, v); it; ++it)
+    if (it.value() != 0) row[number ? (*number)[size_t(it.col())] : Index(it.col())] = it.value();
+  return row;
+}
+
+bool has_same_weights(const MaskRow& a, const MaskRow& b) {
+  constexpr double rounding = 1e-12;  // sums may have another order
+  return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
+    return x.first == y.first && std::abs(x.second - y.second) <= rounding;
+  });
+}
 
 bool has_narrow_masks(const Scheme<double>& scheme) { return scheme.steps.size() == 1 && !scheme.is_wide(); }
 
@@ -172,7 +164,7 @@ std::vector<LabelledLevel> labelled_levels(const Scheme<double>& scheme) {
 }
 
 int rings_for_refinement(const Scheme<double>& scheme) {
-  // Of narrow masks the split decides: dual ones lose the faces at the rim; knots of the next faces are needed.
+  // If masks are narrow, the split decides: dual splits lose the faces at the rim, and knots reach one face further.
   if (has_narrow_masks(scheme))
     return scheme.is_dual() ? 3 : scheme.period > 1 || scheme.knots != NewKnots::none ? 2 : 1;
   const std::vector<LabelledLevel> levels = labelled_levels(scheme);
