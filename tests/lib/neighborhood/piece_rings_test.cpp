@@ -184,8 +184,9 @@ TEST(PieceRings, AreThoseOfTheSupport) {
       if (parent != 0) continue;
       for (const Index v : fine.vertices(Face{f}))
         for (SparseMatrix::InnerIterator it(P, v); it; ++it)
-          if (it.value() != 0)
+          if (it.value() != 0) {
             ASSERT_TRUE(std::binary_search(points.begin(), points.end(), Index(it.col()))) << scheme.name;
+          }
     }
   }
 }
