@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "meshes/meshes.h"
 #include "opensubdiv_peer.h"
 #include "sublimit/io/read_mesh.h"
-#include "support/meshes.h"
 
 namespace sublimit::bench {
 

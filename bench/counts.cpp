@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/stencils/bake/detail/bake.h"
-#include "sublimit/surface/limit_surface.h"
-#include "sublimit/eval/pattern_evaluator.h"
+#include "meshes/meshes.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/surface/limit_surface.h"
 #include "support/allocations.h"
-#include "support/meshes.h"
 
 namespace sublimit::bench {
 namespace {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <random>
 
+#include "meshes/meshes.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit::bench {
 namespace {

@@ -21,10 +21,10 @@
 #include <span>
 
 #include "bench_meshes.h"
-#include "measuring.h"
 #include "bench_report.h"
+#include "measuring.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/eval/gpu/gpu_evaluator.h"
-#include "sublimit/eval/pattern_evaluator.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 

@@ -20,11 +20,11 @@
 #include <string>
 #include <vector>
 
+#include "peers/compare_with_opensubdiv.h"
+#include "peers/dyadic_limits.h"
+#include "peers/opensubdiv_limit_reference.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/surface/limit_map.h"
-#include "support/compare_with_opensubdiv.h"
-#include "support/dyadic_limits.h"
-#include "support/opensubdiv_limit_reference.h"
 
 namespace sublimit::bench {
 namespace {

@@ -16,13 +16,13 @@
 #include <memory>
 #include <random>
 
-#include "measuring.h"
 #include "bench_report.h"
-#include "sublimit/stencils/bake/detail/bake.h"
-#include "sublimit/eval/pattern_evaluator.h"
+#include "measuring.h"
+#include "peers/opencascade_reference.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/patches/detail/bezier_pieces.h"
 #include "sublimit/patches/detail/spline_rows.h"
-#include "support/opencascade_reference.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 
 namespace sublimit::bench {
 namespace {

@@ -14,13 +14,13 @@
 #include <random>
 #include <string>
 
-#include "measuring.h"
 #include "bench_report.h"
+#include "measuring.h"
+#include "meshes/meshes.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/surface/limit_surface.h"
-#include "sublimit/eval/pattern_evaluator.h"
-#include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 
 namespace sublimit::bench {
 namespace {

@@ -20,15 +20,15 @@
 #include <string>
 #include <vector>
 
-#include "measuring.h"
 #include "bench_report.h"
+#include "measuring.h"
+#include "meshes/irregular_meshes.h"
+#include "meshes/meshes.h"
+#include "peers/cgal_reference.h"
+#include "peers/openmesh_reference.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/cgal_reference.h"
-#include "support/irregular_meshes.h"
-#include "support/meshes.h"
-#include "support/openmesh_reference.h"
 
 namespace sublimit::bench {
 namespace {

@@ -20,12 +20,12 @@
 #include <optional>
 
 #include "bench_meshes.h"
+#include "bench_report.h"
 #include "bicubic_torus.h"
 #include "limit_peers.h"
 #include "measuring.h"
 #include "opensubdiv_table.h"
-#include "bench_report.h"
-#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 

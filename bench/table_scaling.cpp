@@ -24,11 +24,11 @@
 #include <stdexcept>
 
 #include "bench_meshes.h"
+#include "bench_report.h"
 #include "measuring.h"
 #include "opensubdiv_table.h"
-#include "bench_report.h"
-#include "sublimit/eval/pattern_evaluator.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
+#include "sublimit/eval/file/table_file.h"
 #include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/stencils/bake/detail/bake.h"

@@ -8,13 +8,13 @@
 #include <cstdio>
 #include <functional>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/geometric/torus_pieces.h"
 #include "sublimit/report/page/drawing.h"
 #include "sublimit/report/page/plot.h"
 #include "sublimit/report/page/style.h"
-#include "support/deviation.h"
-#include "support/meshes.h"
+#include "truth/deviation.h"
 
 namespace sublimit::bench {
 namespace {

@@ -17,7 +17,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/jobs/shard_jobs.h"
-#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/eval/pattern_evaluator.h"
-#include "support/random_tables.h"
+#include "meshes/random_tables.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 
 namespace sublimit::testing {
 namespace {

@@ -10,10 +10,10 @@
 #include <string>
 #include <thread>
 
-#include "sublimit/eval/baked_table.h"
 #include "sublimit/base/error.h"
 #include "sublimit/eval/detail/eval_handle.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/file/table_file.h"
+#include "sublimit/eval/table/baked_table.h"
 #include "support/temporary_directory.h"
 
 extern "C" {

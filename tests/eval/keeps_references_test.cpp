@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What refers to a table, or to bytes, takes no temporary one, or keeps it.
-#include "support/keeps_references.h"
+#include "laws/keeps_references.h"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "sublimit/base/detail/read_file.h"
-#include "sublimit/eval/pattern_evaluator.h"
-#include "sublimit/eval/shared_array.h"
-#include "sublimit/eval/table_file.h"
-#include "sublimit/eval/detail/packed_blocks.h"
-#include "sublimit/eval/detail/pattern_transpose.h"
-#include "sublimit/eval/detail/table_tensors.h"
+#include "sublimit/eval/evaluate/detail/packed_blocks.h"
+#include "sublimit/eval/evaluate/detail/pattern_transpose.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
+#include "sublimit/eval/file/detail/table_tensors.h"
+#include "sublimit/eval/file/table_file.h"
+#include "sublimit/eval/table/shared_array.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

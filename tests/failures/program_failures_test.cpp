@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "failures/failing_calls.h"
+#include "laws/full_sweep.h"
 #include "stencils/cli_program.h"
-#include "support/full_sweep.h"
 
 namespace sublimit::testing {
 namespace {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
-#include "sublimit/eval/detail/verify_table.h"
-#include "sublimit/eval/pattern_evaluator.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
+#include "sublimit/eval/file/detail/verify_table.h"
+#include "sublimit/eval/file/table_file.h"
 
 namespace sublimit {
 namespace {

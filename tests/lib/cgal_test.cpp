@@ -15,9 +15,9 @@
 
 #include <set>
 
-#include "support/cgal_reference.h"
-#include "support/irregular_meshes.h"
-#include "support/match_meshes.h"
+#include "meshes/irregular_meshes.h"
+#include "meshes/match_meshes.h"
+#include "peers/cgal_reference.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

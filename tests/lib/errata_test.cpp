@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rules that are misprinted or misread in circulation (support/misreadings.h), each as a scheme of its own, and what
+// Rules that are misprinted or misread in circulation (laws/misreadings.h), each as a scheme of its own, and what
 // becomes of it: the reasons why the registry has the rules that it has.
 #include <gtest/gtest.h>
 
@@ -9,17 +9,17 @@
 #include <numeric>
 #include <vector>
 
+#include "laws/misreadings.h"
+#include "meshes/match_meshes.h"
+#include "meshes/meshes.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/closed_form.h"
 #include "support/expect_error.h"
-#include "support/match_meshes.h"
-#include "support/meshes.h"
-#include "support/misreadings.h"
-#include "support/regular_limit.h"
 #include "support/tolerance.h"
+#include "truth/closed_form.h"
+#include "truth/regular_limit.h"
 
 namespace sublimit::testing {
 namespace {

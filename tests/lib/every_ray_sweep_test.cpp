@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays through marked points of OpenSubdiv's regression shapes, under every scheme.
+#include "laws/full_sweep.h"
+#include "laws/ray_laws.h"
+#include "meshes/shared_meshes.h"
 #include "sublimit/io/read_mesh.h"
-#include "support/full_sweep.h"
-#include "support/ray_laws.h"
-#include "support/shared_meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/broken_topology.h"
+#include "meshes/shared_meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/broken_topology.h"
-#include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

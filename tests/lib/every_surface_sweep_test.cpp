@@ -8,14 +8,14 @@
 #include <random>
 #include <set>
 
+#include "laws/limits_at_thirds.h"
+#include "meshes/shared_meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/limits_at_thirds.h"
-#include "support/shared_meshes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What refers to an argument of its constructor takes no temporary: the mistake is found by the compiler. That no class
 // is forgotten is seen by House.WhatKeepsAReferenceTakesNoTemporary.
-#include "support/keeps_references.h"
+#include "laws/keeps_references.h"
 
 #include <gtest/gtest.h>
 

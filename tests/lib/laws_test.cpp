@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "laws/laws.h"
+#include "laws/lost_normals.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/averaging_blocks.h"
-#include "support/laws.h"
-#include "support/lost_normals.h"
-#include "support/published_values.h"
 #include "support/tolerance.h"
+#include "truth/averaging_blocks.h"
+#include "truth/published_values.h"
 
 namespace sublimit::testing {
 namespace {

@@ -28,9 +28,9 @@
 
 #include <set>
 
-#include "support/irregular_meshes.h"
-#include "support/match_meshes.h"
-#include "support/openmesh_reference.h"
+#include "meshes/irregular_meshes.h"
+#include "meshes/match_meshes.h"
+#include "peers/openmesh_reference.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -2,9 +2,9 @@
 // OpenSubdiv's own regression shapes, every tag honoured: our refined meshes are its refined meshes.
 #include <gtest/gtest.h>
 
+#include "meshes/shared_meshes.h"
+#include "peers/compare_with_opensubdiv.h"
 #include "sublimit/io/read_mesh.h"
-#include "support/compare_with_opensubdiv.h"
-#include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

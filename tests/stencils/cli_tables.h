@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Fixture: a mesh in a directory, and the program that makes tables of it.
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What refers to an argument takes no temporary one.
-#include "support/keeps_references.h"
+#include "laws/keeps_references.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "sublimit/report/asset/seam_samples.h"
 #include "sublimit/stencils/bake/detail/pattern_edits.h"
-#include "sublimit/stencils/files/npy.h"
+#include "sublimit/stencils/formats/npy.h"
 #include "sublimit/stencils/recipes/detail/net_file.h"
 #include "sublimit/stencils/recipes/detail/recipe_object.h"
 #include "sublimit/stencils/recipes/detail/recipe_sources.h"

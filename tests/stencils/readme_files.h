@@ -6,15 +6,15 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "meshes/face_varying_meshes.h"
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "stencils/readme_commands.h"
-#include "sublimit/stencils/files/npy.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/stencils/patterns/demo_mesh.h"
 #include "sublimit/scheme/detail/prepare.h"
-#include "support/face_varying_meshes.h"
-#include "support/meshes.h"
+#include "sublimit/stencils/formats/npy.h"
+#include "sublimit/stencils/patterns/demo_mesh.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

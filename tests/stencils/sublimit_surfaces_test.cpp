@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "laws/tested_schemes.h"
+#include "meshes/meshes.h"
 #include "sublimit/base/version.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/sublimit.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/temporary_directory.h"
-#include "support/tested_schemes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include "meshes/meshes.h"
 #include "sublimit/certificates/numbers/algebraic.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

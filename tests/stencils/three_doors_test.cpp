@@ -23,10 +23,10 @@
 #include <utility>
 #include <vector>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

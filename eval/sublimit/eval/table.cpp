@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
-#include "sublimit/eval/evaluation.h"
+#include "sublimit/eval/evaluate/evaluation.h"
 
 namespace sublimit {
 namespace {

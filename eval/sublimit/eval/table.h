@@ -18,8 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/eval/pattern_evaluator.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
+#include "sublimit/eval/file/table_file.h"
 
 namespace sublimit {
 

@@ -7,10 +7,20 @@
 #include <functional>
 #include <string>
 
-#include "sublimit/cad/opencascade/step.h"
-#include "sublimit/cad/opencascade/write_cad.h"
+#include "sublimit/cad/boundary_model.h"
+#include "sublimit/cad/step_options.h"
+#include "sublimit/patches/patches.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
+
+/// The content of a CAD file and statistics of it.
+struct CadFile {
+  std::string bytes;           ///< content of the file
+  int solids = 0, shells = 0;  ///< closed and open parts
+  double volume = 0;           ///< total volume of the solids, from the volumes of their faces
+  bool is_valid = false;       ///< result of OpenCASCADE's own check
+};
 
 /// Function that converts a model to the bytes of a file, see `cad_file`.
 using CadFileMaker = std::function<CadFile(const BoundaryModel& model, const std::string& name, bool step)>;

@@ -7,10 +7,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "support/common.h"
-#include "support/free_form.h"
-#include "support/memory_limit.h"
-#include "support/recipes.h"
 #include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
@@ -23,7 +19,11 @@
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
+#include "support/common.h"
+#include "support/free_form.h"
+#include "support/memory_limit.h"
+#include "support/recipes.h"
 
 namespace sublimit::cli {
 namespace {

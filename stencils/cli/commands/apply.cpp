@@ -5,20 +5,20 @@
 #include <chrono>
 #include <cmath>
 
-#include "support/common.h"
-#include "support/free_form.h"
-#include "sublimit/stencils/bake/detail/applied_points.h"
-#include "sublimit/stencils/bake/detail/table_info.h"
-#include "sublimit/stencils/bake/detail/table_mesh.h"
-#include "sublimit/base/error.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
-#include "sublimit/stencils/files/frames.h"
-#include "sublimit/stencils/files/npy.h"
+#include "sublimit/base/error.h"
+#include "sublimit/eval/file/table_file.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/scheme/detail/prepare.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/stencils/bake/detail/applied_points.h"
+#include "sublimit/stencils/bake/detail/table_info.h"
+#include "sublimit/stencils/bake/detail/table_mesh.h"
+#include "sublimit/stencils/files/frames.h"
+#include "sublimit/stencils/formats/npy.h"
+#include "support/common.h"
+#include "support/free_form.h"
 #include "support/table_applier.h"
 
 namespace sublimit::cli {

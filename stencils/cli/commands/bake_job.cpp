@@ -7,17 +7,17 @@
 #include <utility>
 
 #include "commands/bake.h"
-#include "support/free_form.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/file/table_file.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/stencils/bake/detail/table_info.h"
 #include "sublimit/stencils/files/patch_places.h"
 #include "sublimit/stencils/files/place_files.h"
-#include "sublimit/stencils/files/rule_of_word.h"
 #include "sublimit/stencils/files/sample_files.h"
+#include "sublimit/stencils/formats/rule_of_word.h"
 #include "sublimit/stencils/patterns/pattern_file.h"
+#include "support/free_form.h"
 
 namespace sublimit::cli {
 namespace {

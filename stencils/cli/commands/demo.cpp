@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "support/common.h"
 #include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/file/table_file.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/stencils/bake/detail/table_info.h"
 #include "sublimit/stencils/files/level_files.h"
@@ -18,6 +17,7 @@
 #include "sublimit/stencils/patterns/demo_mesh.h"
 #include "sublimit/stencils/picture/picture_mesh.h"
 #include "sublimit/surface/limit_map.h"
+#include "support/common.h"
 
 namespace sublimit::cli {
 namespace {

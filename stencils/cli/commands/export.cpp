@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/common.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/file/table_file.h"
 #include "sublimit/stencils/files/export_table.h"
+#include "support/common.h"
 
 namespace sublimit::cli {
 namespace {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "support/free_form.h"
 #include "sublimit/report/free_form/free_form_json.h"
 #include "sublimit/report/free_form/recipe_report.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
+#include "support/free_form.h"
 
 namespace sublimit::cli {
 

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include "support/free_form.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
@@ -12,7 +11,8 @@
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/patches/detail/patch_levels.h"
-#include "sublimit/stencils/files/matrix_market.h"
+#include "sublimit/stencils/formats/matrix_market.h"
+#include "support/free_form.h"
 
 namespace sublimit::cli {
 namespace {

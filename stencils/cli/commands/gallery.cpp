@@ -8,8 +8,8 @@
 
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
-#include "sublimit/stencils/files/numbers.h"
 #include "sublimit/stencils/gallery/gallery.h"
+#include "sublimit/stencils/json/numbers.h"
 
 namespace sublimit::cli {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/base/error.h"
+#include "sublimit/stencils/files/level_files.h"
+#include "sublimit/stencils/formats/matrix_market.h"
 #include "support/curves.h"
 #include "support/free_form.h"
 #include "support/normal_surfaces.h"
-#include "sublimit/base/error.h"
-#include "sublimit/stencils/files/level_files.h"
-#include "sublimit/stencils/files/matrix_market.h"
 
 namespace sublimit::cli {
 namespace {

@@ -11,8 +11,6 @@
 #include <memory>
 #include <random>
 
-#include "support/curves.h"
-#include "support/free_form.h"
 #include "commands/sample.h"
 #include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/detail/format_number.h"
@@ -20,8 +18,10 @@
 #include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "sublimit/stencils/files/csv_rows.h"
 #include "sublimit/stencils/files/patch_places.h"
+#include "sublimit/stencils/formats/csv_rows.h"
+#include "support/curves.h"
+#include "support/free_form.h"
 
 namespace sublimit::cli {
 namespace {

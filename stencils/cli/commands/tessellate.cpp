@@ -7,20 +7,20 @@
 #include <optional>
 #include <utility>
 
-#include "support/source.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/file_extension.h"
-#include "sublimit/stencils/files/glb.h"
 #include "sublimit/stencils/files/place_files.h"
 #include "sublimit/stencils/files/rate_files.h"
-#include "sublimit/stencils/files/split_mesh.h"
 #include "sublimit/stencils/files/tessellation_mesh.h"
-#include "sublimit/stencils/files/vtu.h"
+#include "sublimit/stencils/formats/glb.h"
+#include "sublimit/stencils/formats/split_mesh.h"
+#include "sublimit/stencils/formats/vtu.h"
 #include "sublimit/stencils/jobs/detail/refined_job.h"
 #include "sublimit/tessellation/detail/bezier_cells.h"
 #include "sublimit/tessellation/detail/rated_tessellation.h"
 #include "sublimit/tessellation/detail/triangle_shapes.h"
+#include "support/source.h"
 
 namespace sublimit::cli {
 namespace {

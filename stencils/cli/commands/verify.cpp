@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <array>
 
-#include "support/common.h"
-#include "support/input_files.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/eval/detail/verify_table.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/file/detail/verify_table.h"
+#include "sublimit/eval/file/table_file.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/report/analysis/verify_report.h"
+#include "support/common.h"
+#include "support/input_files.h"
 
 namespace sublimit::cli {
 namespace {

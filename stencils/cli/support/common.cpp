@@ -9,7 +9,6 @@
 #include <cmath>
 #include <utility>
 
-#include "support/curves.h"
 #include "sublimit/base/detail/followed_links.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
@@ -18,8 +17,9 @@
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/source/limit_status.h"
-#include "sublimit/stencils/files/rule_of_word.h"
-#include "sublimit/stencils/files/sidecar.h"
+#include "sublimit/stencils/formats/rule_of_word.h"
+#include "sublimit/stencils/formats/sidecar.h"
+#include "support/curves.h"
 
 namespace sublimit::cli {
 namespace {

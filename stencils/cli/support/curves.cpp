@@ -11,7 +11,7 @@
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/polygon_files.h"
-#include "sublimit/stencils/files/matrix_market.h"
+#include "sublimit/stencils/formats/matrix_market.h"
 
 namespace sublimit::cli {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/table_applier.h"
 
-#include "support/evaluator_applier.h"
 #include "gpu/entry.h"
-#include "support/loaded_library.h"
 #include "sublimit/base/error.h"
-#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
+#include "support/evaluator_applier.h"
+#include "support/loaded_library.h"
 
 namespace sublimit::cli {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "sublimit/eval/evaluation.h"
-#include "sublimit/eval/pattern_table.h"
+#include "sublimit/eval/evaluate/evaluation.h"
+#include "sublimit/eval/table/pattern_table.h"
 
 namespace sublimit::cli {
 

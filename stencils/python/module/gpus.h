@@ -7,8 +7,8 @@
 #include <span>
 
 #include "sublimit/base/error.h"
-#include "sublimit/eval/evaluation.h"
-#include "sublimit/eval/pattern_table.h"
+#include "sublimit/eval/evaluate/evaluation.h"
+#include "sublimit/eval/table/pattern_table.h"
 
 namespace sublimit {
 class GpuDevice;

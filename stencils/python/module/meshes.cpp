@@ -18,8 +18,8 @@
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/mesh/sharpness.h"
-#include "sublimit/stencils/files/rule_of_word.h"
-#include "sublimit/stencils/files/sidecar.h"
+#include "sublimit/stencils/formats/rule_of_word.h"
+#include "sublimit/stencils/formats/sidecar.h"
 #include "sublimit/stencils/jobs/detail/mesh_info_json.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
 

@@ -39,7 +39,7 @@
 #include <vector>
 
 #include "sublimit/distributed/ranks.h"
-#include "sublimit/eval/baked_table.h"
+#include "sublimit/eval/table/baked_table.h"
 #include "sublimit/mesh/mesh.h"
 #include "sublimit/scheme/any_scheme.h"
 

@@ -1,5 +1,5 @@
 #include <sublimit/base/error.h>
-#include <sublimit/eval/stencil_table.h>
+#include <sublimit/eval/table/stencil_table.h>
 
 #include <vector>
 

@@ -6,10 +6,10 @@
 
 #include <string>
 
+#include "meshes/random_doubles.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "support/expect_error.h"
-#include "support/random_doubles.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

@@ -15,9 +15,9 @@
 #include "eval/gpu/made_tables.h"
 #include "eval/gpu/test_device.h"
 #include "sublimit/base/error.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/eval/gpu/detail/compiled_kernels.h"
 #include "sublimit/eval/gpu/gpu_evaluator.h"
-#include "sublimit/eval/pattern_evaluator.h"
 
 namespace sublimit::testing {
 namespace {

@@ -14,10 +14,10 @@
 #include "eval/gpu/comparisons.h"
 #include "eval/gpu/made_tables.h"
 #include "eval/gpu/test_device.h"
+#include "laws/keeps_references.h"
 #include "sublimit/base/error.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/eval/gpu/detail/packed_table.h"
-#include "sublimit/eval/pattern_evaluator.h"
-#include "support/keeps_references.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "sublimit/eval/pattern_evaluator.h"
-#include "sublimit/eval/pattern_table.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
+#include "sublimit/eval/table/pattern_table.h"
 
 namespace sublimit::testing {
 

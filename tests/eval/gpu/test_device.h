@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <span>
 
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/eval/gpu/gpu_device.h"
-#include "sublimit/eval/pattern_evaluator.h"
 
 namespace sublimit::testing {
 

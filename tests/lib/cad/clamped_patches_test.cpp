@@ -5,12 +5,12 @@
 
 #include <random>
 
+#include "meshes/spline_models.h"
 #include "sublimit/cad/triangle_thirds.h"
 #include "sublimit/patches/constructions/gregory_patch.h"
 #include "sublimit/patches/constructions/screw_surface.h"
 #include "sublimit/patches/constructions/triangle_patch.h"
 #include "support/expect_error.h"
-#include "support/spline_models.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

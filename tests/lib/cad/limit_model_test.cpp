@@ -5,10 +5,10 @@
 
 #include <map>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/integrals/limit_integrals.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

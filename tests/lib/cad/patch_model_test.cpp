@@ -5,9 +5,9 @@
 
 #include <numbers>
 
+#include "meshes/spline_models.h"
 #include "sublimit/cad/patch_integrals.h"
 #include "support/expect_error.h"
-#include "support/spline_models.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

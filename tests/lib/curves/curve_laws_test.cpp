@@ -2,9 +2,9 @@
 // Every law over every curve scheme, and every mutant of every mask killed by some law.
 #include <gtest/gtest.h>
 
+#include "laws/curve_laws.h"
 #include "sublimit/base/error.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
-#include "support/curve_laws.h"
 
 namespace sublimit::testing {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <random>
 
+#include "laws/curve_laws.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/curves/detail/curve_limits.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
-#include "support/curve_laws.h"
-#include "support/precise_schemes.h"
 #include "support/tolerance.h"
+#include "truth/precise_schemes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -11,13 +11,13 @@
 #include <random>
 #include <set>
 
+#include "laws/curve_laws.h"
+#include "laws/full_sweep.h"
+#include "laws/stationary.h"
+#include "lib/curves/curve_truth.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "support/curve_laws.h"
-#include "support/curve_truth.h"
 #include "support/expect_error.h"
-#include "support/full_sweep.h"
-#include "support/stationary.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -8,9 +8,9 @@
 #include <limits>
 #include <random>
 
+#include "laws/tested_schemes.h"
+#include "meshes/places.h"
 #include "support/expect_error.h"
-#include "support/places.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -10,11 +10,11 @@
 #include <limits>
 #include <vector>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/dense_decompositions.h"
-#include "support/limit_system.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
+#include "truth/limit_system.h"
 
 namespace sublimit {
 namespace {

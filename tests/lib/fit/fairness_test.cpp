@@ -9,10 +9,10 @@
 #include <cmath>
 #include <random>
 
+#include "laws/tested_schemes.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/integrals/detail/quadrature.h"
 #include "support/expect_error.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

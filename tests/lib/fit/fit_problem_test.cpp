@@ -8,11 +8,11 @@
 #include <limits>
 #include <random>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/dense_decompositions.h"
-#include "support/limit_system.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
+#include "truth/limit_system.h"
 
 namespace sublimit {
 namespace {

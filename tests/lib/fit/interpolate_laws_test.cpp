@@ -9,13 +9,13 @@
 #include <numeric>
 #include <random>
 
+#include "laws/tested_schemes.h"
+#include "meshes/places.h"
 #include "sublimit/fit/detail/interpolate.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/neighborhood/centre.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
-#include "support/places.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

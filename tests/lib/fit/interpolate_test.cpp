@@ -5,12 +5,12 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "meshes/meshes.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

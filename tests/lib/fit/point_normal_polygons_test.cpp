@@ -8,12 +8,12 @@
 
 #include <random>
 
-#include "sublimit/surface/limit_map.h"
+#include "meshes/irregular_meshes.h"
+#include "meshes/places.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
-#include "support/irregular_meshes.h"
-#include "support/places.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -4,12 +4,12 @@
 
 #include <Eigen/Geometry>
 
+#include "meshes/shared_meshes.h"
 #include "sublimit/fit/detail/interpolate.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

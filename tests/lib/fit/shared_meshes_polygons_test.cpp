@@ -4,12 +4,12 @@
 
 #include <Eigen/Geometry>
 
+#include "meshes/shared_meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/fit/detail/point_normal_polygons.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -6,9 +6,9 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "support/limit_system.h"
-#include "support/meshes.h"
+#include "meshes/meshes.h"
 #include "support/tolerance.h"
+#include "truth/limit_system.h"
 
 namespace sublimit {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "meshes/meshes.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

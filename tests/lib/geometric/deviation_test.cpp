@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/deviation.h"
+#include "truth/deviation.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 
 #include <cmath>
 
+#include "meshes/meshes.h"
 #include "sublimit/geometric/torus_pieces.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

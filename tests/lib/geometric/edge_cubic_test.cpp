@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "meshes/normal_triangles.h"
 #include "sublimit/geometric/parameter_jet.h"
-#include "support/normal_triangles.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

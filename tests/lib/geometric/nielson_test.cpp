@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/normal_triangles.h"
+#include "meshes/normal_triangles.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/meshes.h"
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/splits/split.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "support/normal_triangles.h"
+#include "meshes/normal_triangles.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/deviation.h"
+#include "meshes/meshes.h"
 #include "sublimit/geometric/torus_pieces.h"
 #include "sublimit/mesh/topology.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
+#include "truth/deviation.h"
 
 namespace sublimit::testing {
 namespace {

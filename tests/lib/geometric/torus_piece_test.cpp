@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/torus_patch.h"
+#include "lib/geometric/torus_patch.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

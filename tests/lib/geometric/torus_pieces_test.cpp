@@ -11,13 +11,13 @@
 #include <numbers>
 #include <random>
 
-#include "support/deviation.h"
+#include "meshes/irregular_meshes.h"
+#include "meshes/meshes.h"
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/geometric/torus_edge.h"
 #include "sublimit/mesh/topology.h"
-#include "support/irregular_meshes.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
+#include "truth/deviation.h"
 
 namespace sublimit::testing {
 namespace {

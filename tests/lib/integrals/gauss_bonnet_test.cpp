@@ -9,11 +9,11 @@
 #include <numbers>
 #include <vector>
 
+#include "laws/tested_schemes.h"
+#include "meshes/places.h"
+#include "sublimit/integrals/detail/quadrature.h"
 #include "sublimit/source/curvature.h"
 #include "sublimit/surface/limit_map.h"
-#include "sublimit/integrals/detail/quadrature.h"
-#include "support/places.h"
-#include "support/tested_schemes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <cmath>
 
+#include "laws/tested_schemes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/integrals/detail/quadrature.h"
 #include "support/expect_error.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <vector>
 
+#include "laws/tested_schemes.h"
 #include "sublimit/base/error.h"
-#include "sublimit/integrals/limit_integrals.h"
 #include "sublimit/integrals/detail/quadrature.h"
 #include "sublimit/integrals/detail/sequence_limit.h"
+#include "sublimit/integrals/limit_integrals.h"
 #include "support/expect_error.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -13,11 +13,11 @@
 #include <complex>
 #include <vector>
 
-#include "sublimit/integrals/limit_integrals.h"
-#include "sublimit/surface/detail/limit_patches.h"
-#include "sublimit/nets/piece_hull.h"
+#include "laws/tested_schemes.h"
 #include "sublimit/integrals/detail/quadrature.h"
-#include "support/tested_schemes.h"
+#include "sublimit/integrals/limit_integrals.h"
+#include "sublimit/nets/piece_hull.h"
+#include "sublimit/surface/detail/limit_patches.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -16,6 +16,7 @@
 #include <random>
 #include <string>
 
+#include "meshes/random_doubles.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/io/detail/obj.h"
@@ -24,7 +25,6 @@
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
-#include "support/random_doubles.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

@@ -7,11 +7,11 @@
 
 #include <map>
 
+#include "meshes/meshes.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "support/brute_force.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
+#include "truth/brute_force.h"
 
 namespace sublimit::testing {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "sublimit/search/closest_point.h"
+#include "laws/laws.h"
+#include "laws/tested_schemes.h"
+#include "meshes/places.h"
 #include "sublimit/neighborhood/regular_smoothness.h"
-#include "support/laws.h"
-#include "support/places.h"
-#include "support/tested_schemes.h"
+#include "sublimit/search/closest_point.h"
 
 namespace sublimit::testing {
 namespace {

@@ -2,13 +2,13 @@
 // A dictionary of types is of one scheme: with levels or surfaces of another it is refused, whatever the schemes claim.
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/detail/limit_rows.h"
-#include "sublimit/surface/limit_map.h"
-#include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <Eigen/Geometry>
 
+#include "laws/laws.h"
+#include "meshes/meshes.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/limit/detail/limit_rows.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/laws.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

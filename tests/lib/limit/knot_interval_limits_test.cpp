@@ -7,15 +7,15 @@
 
 #include <random>
 
+#include "meshes/knot_breaks.h"
+#include "meshes/meshes.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/patches/detail/interval_mesh.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/patches/spline_surface.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
-#include "support/knot_breaks.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

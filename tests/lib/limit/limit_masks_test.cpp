@@ -8,11 +8,11 @@
 
 #include <numbers>
 
+#include "meshes/meshes.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/limit/detail/eigen_structure.h"
 #include "sublimit/neighborhood/local_matrix.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -8,16 +8,16 @@
 #include <algorithm>
 #include <set>
 
+#include "meshes/meshes.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/fit/detail/vertex_limits.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/neighborhood/control_place.h"
 #include "sublimit/neighborhood/vertex_sides.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -2,7 +2,7 @@
 // The truth about limit surfaces, tested by what it must be whatever the scheme: splines on regular meshes, the same
 // from later levels, derivatives that are limits of differences, the limits of vertices, one surface from both sides of
 // an edge.
-#include "support/limit_truth.h"
+#include "truth/limit_truth.h"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@
 #include <cmath>
 #include <limits>
 
+#include "laws/full_sweep.h"
+#include "meshes/hard_meshes.h"
+#include "meshes/places.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "support/full_sweep.h"
-#include "support/hard_meshes.h"
-#include "support/places.h"
-#include "support/regular_limit.h"
 #include "support/tolerance.h"
+#include "truth/regular_limit.h"
 
 namespace sublimit::testing {
 namespace {

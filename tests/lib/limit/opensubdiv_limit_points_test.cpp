@@ -5,13 +5,13 @@
 
 #include <random>
 
+#include "meshes/irregular_meshes.h"
+#include "meshes/meshes.h"
+#include "meshes/shared_meshes.h"
+#include "peers/compare_with_opensubdiv.h"
+#include "peers/opensubdiv_limit_reference.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/surface/limit_map.h"
-#include "support/compare_with_opensubdiv.h"
-#include "support/irregular_meshes.h"
-#include "support/meshes.h"
-#include "support/opensubdiv_limit_reference.h"
-#include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

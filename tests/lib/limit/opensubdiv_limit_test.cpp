@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <set>
 
+#include "meshes/meshes.h"
+#include "meshes/shared_meshes.h"
+#include "peers/compare_with_opensubdiv.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "support/compare_with_opensubdiv.h"
-#include "support/meshes.h"
-#include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -12,11 +12,11 @@
 #include <thread>
 #include <vector>
 
+#include "laws/full_sweep.h"
+#include "meshes/meshes.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/full_sweep.h"
-#include "support/meshes.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit::testing {
 namespace {

@@ -9,20 +9,20 @@
 #include <memory>
 #include <numbers>
 
+#include "laws/local_types.h"
+#include "meshes/meshes.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/core/detail/submatrix.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/limit/detail/sparse_spectrum.h"
 #include "sublimit/limit/detail/tangents.h"
 #include "sublimit/neighborhood/closed_set.h"
 #include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/allocations.h"
-#include "support/local_types.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

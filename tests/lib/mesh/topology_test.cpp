@@ -5,11 +5,11 @@
 
 #include <set>
 
+#include "meshes/broken_topology.h"
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/mesh/sharpness.h"
 #include "sublimit/splits/split.h"
-#include "support/broken_topology.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <random>
 
+#include "meshes/meshes.h"
 #include "sublimit/neighborhood/piece_types.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 
+#include "laws/tested_schemes.h"
+#include "meshes/irregular_meshes.h"
+#include "meshes/meshes.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/neighborhood/piece_walk.h"
 #include "sublimit/surface/limit_map.h"
-#include "support/irregular_meshes.h"
-#include "support/meshes.h"
-#include "support/tested_schemes.h"
 
 namespace sublimit::testing {
 namespace {

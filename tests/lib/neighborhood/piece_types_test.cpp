@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/hard_meshes.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/hard_meshes.h"
 
 namespace sublimit::testing {
 namespace {

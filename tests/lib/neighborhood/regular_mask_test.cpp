@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sublimit/surface/limit_map.h"
+#include "meshes/meshes.h"
 #include "sublimit/neighborhood/piece_types.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/places.h"
-#include "support/tested_schemes.h"
+#include "laws/tested_schemes.h"
+#include "meshes/places.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

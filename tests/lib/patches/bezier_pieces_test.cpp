@@ -6,8 +6,8 @@
 
 #include <random>
 
+#include "meshes/free_form_shapes.h"
 #include "support/expect_error.h"
-#include "support/free_form_shapes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

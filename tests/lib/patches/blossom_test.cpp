@@ -6,8 +6,8 @@
 
 #include <numeric>
 
-#include "support/classical_splines.h"
-#include "support/fraction.h"
+#include "truth/classical_splines.h"
+#include "truth/fraction.h"
 
 namespace sublimit::testing {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/patches/detail/spline_rows.h"
-#include "support/classical_splines.h"
 #include "support/expect_error.h"
-#include "support/fraction.h"
-#include "support/precise.h"
 #include "support/tolerance.h"
+#include "truth/classical_splines.h"
+#include "truth/fraction.h"
+#include "truth/precise.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <limits>
 
-#include "support/classical_splines.h"
 #include "support/expect_error.h"
-#include "support/fraction.h"
+#include "truth/classical_splines.h"
+#include "truth/fraction.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/patches/constructions/lagrange_basis.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"
 #include "sublimit/patches/detail/finer_knots.h"
@@ -13,9 +12,10 @@
 #include "sublimit/patches/detail/spline_rows.h"
 #include "sublimit/patches/spline_surface.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/classical_splines.h"
-#include "support/fraction.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/tolerance.h"
+#include "truth/classical_splines.h"
+#include "truth/fraction.h"
 
 namespace sublimit::testing {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <random>
 
-#include "sublimit/patches/spline_curve.h"
+#include "peers/opencascade_reference.h"
 #include "sublimit/patches/detail/spline_rows.h"
+#include "sublimit/patches/spline_curve.h"
 #include "sublimit/patches/spline_surface.h"
-#include "support/opencascade_reference.h"
-#include "support/precise.h"
+#include "truth/precise.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,13 +5,13 @@
 
 #include <random>
 
-#include "sublimit/patches/spline_curve.h"
 #include "sublimit/patches/detail/spline_rows.h"
+#include "sublimit/patches/spline_curve.h"
 #include "sublimit/patches/spline_surface.h"
-#include "support/classical_splines.h"
-#include "support/fraction.h"
-#include "support/precise.h"
 #include "support/tolerance.h"
+#include "truth/classical_splines.h"
+#include "truth/fraction.h"
+#include "truth/precise.h"
 
 namespace sublimit::testing {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "sublimit/patches/detail/finer_knots.h"
 #include "sublimit/patches/detail/spline_rows.h"
-#include "support/classical_splines.h"
 #include "support/expect_error.h"
-#include "support/fraction.h"
 #include "support/tolerance.h"
+#include "truth/classical_splines.h"
+#include "truth/fraction.h"
 
 namespace sublimit::testing {
 namespace {

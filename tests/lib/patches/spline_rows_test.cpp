@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/classical_splines.h"
-#include "support/fraction.h"
-#include "support/precise.h"
 #include "support/tolerance.h"
+#include "truth/classical_splines.h"
+#include "truth/fraction.h"
+#include "truth/precise.h"
 
 namespace sublimit::testing {
 namespace {

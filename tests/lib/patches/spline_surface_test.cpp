@@ -9,16 +9,16 @@
 #include <numbers>
 #include <random>
 
+#include "meshes/meshes.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/source/curvature.h"
 #include "sublimit/patches/detail/finer_knots.h"
 #include "sublimit/patches/spline_curve.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/classical_splines.h"
+#include "sublimit/source/curvature.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
+#include "truth/classical_splines.h"
 
 namespace sublimit::testing {
 namespace {

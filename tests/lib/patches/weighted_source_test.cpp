@@ -6,10 +6,10 @@
 
 #include <random>
 
+#include "meshes/free_form_shapes.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "support/expect_error.h"
-#include "support/free_form_shapes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

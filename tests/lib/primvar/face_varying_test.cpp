@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/face_varying_meshes.h"
+#include "meshes/irregular_meshes.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/primvar/linear_scheme.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
-#include "support/face_varying_meshes.h"
-#include "support/irregular_meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -3,10 +3,10 @@
 // everywhere.
 #include <gtest/gtest.h>
 
+#include "meshes/face_varying_meshes.h"
+#include "meshes/shared_meshes.h"
+#include "peers/compare_with_opensubdiv.h"
 #include "sublimit/io/read_mesh.h"
-#include "support/compare_with_opensubdiv.h"
-#include "support/face_varying_meshes.h"
-#include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

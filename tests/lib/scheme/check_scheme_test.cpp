@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/surface/limit_map.h"
+#include "meshes/meshes.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -6,9 +6,9 @@
 #include <set>
 #include <string>
 
-#include "support/compare_with_opensubdiv.h"
-#include "support/meshes.h"
-#include "support/opensubdiv_reference.h"
+#include "meshes/meshes.h"
+#include "peers/compare_with_opensubdiv.h"
+#include "peers/opensubdiv_reference.h"
 
 namespace sublimit::testing {
 namespace {

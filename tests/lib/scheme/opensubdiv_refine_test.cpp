@@ -3,8 +3,8 @@
 // where a checkout has them beside it.
 #include <gtest/gtest.h>
 
-#include "support/compare_with_opensubdiv.h"
-#include "support/meshes.h"
+#include "meshes/meshes.h"
+#include "peers/compare_with_opensubdiv.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/mesh/sharpness.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

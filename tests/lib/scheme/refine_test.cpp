@@ -6,13 +6,13 @@
 
 #include <algorithm>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/subdivide.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -8,12 +8,12 @@
 #include <map>
 #include <optional>
 
+#include "meshes/meshes.h"
+#include "meshes/point_intervals.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
-#include "support/point_intervals.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

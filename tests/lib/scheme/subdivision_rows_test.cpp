@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/hard_meshes.h"
+#include "meshes/meshes.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/hard_meshes.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

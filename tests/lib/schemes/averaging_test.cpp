@@ -11,12 +11,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "meshes/meshes.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/closed_form.h"
-#include "support/meshes.h"
-#include "support/regular_limit.h"
 #include "support/tolerance.h"
+#include "truth/closed_form.h"
+#include "truth/regular_limit.h"
 
 namespace sublimit::testing {
 namespace {

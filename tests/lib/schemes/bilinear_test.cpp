@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/closed_form.h"
+#include "truth/closed_form.h"
 
 namespace sublimit::testing {
 namespace {

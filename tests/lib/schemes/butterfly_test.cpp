@@ -6,10 +6,10 @@
 
 #include <numbers>
 
+#include "meshes/meshes.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/closed_form.h"
-#include "support/meshes.h"
+#include "truth/closed_form.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/closed_form.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
+#include "truth/closed_form.h"
 
 namespace sublimit::testing {
 namespace {

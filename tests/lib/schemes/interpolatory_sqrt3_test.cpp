@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "sublimit/schemes/schemes.h"
-#include "support/closed_form.h"
+#include "truth/closed_form.h"
 
 namespace sublimit::testing {
 namespace {

@@ -10,17 +10,17 @@
 #include <random>
 #include <set>
 
+#include "meshes/knot_breaks.h"
+#include "meshes/meshes.h"
 #include "sublimit/patches/detail/finer_knots.h"
 #include "sublimit/patches/spline_surface.h"
-#include "sublimit/schemes/schemes.h"
 #include "sublimit/scheme/refine.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/splits/detail/child_intervals.h"
 #include "sublimit/splits/detail/child_sharpness.h"
 #include "support/expect_error.h"
-#include "support/fraction.h"
-#include "support/knot_breaks.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
+#include "truth/fraction.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sublimit/schemes/schemes.h"
-#include "support/closed_form.h"
+#include "truth/closed_form.h"
 
 namespace sublimit::testing {
 namespace {

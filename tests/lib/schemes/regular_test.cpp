@@ -3,10 +3,10 @@
 // that their limit is said to be.
 #include <gtest/gtest.h>
 
+#include "laws/laws.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/laws.h"
-#include "support/regular_limit.h"
 #include "support/tolerance.h"
+#include "truth/regular_limit.h"
 
 namespace sublimit::testing {
 namespace {

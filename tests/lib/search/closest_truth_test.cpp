@@ -10,10 +10,10 @@
 #include <random>
 #include <vector>
 
+#include "laws/tested_schemes.h"
 #include "sublimit/search/closest_point.h"
-#include "support/limit_truth.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
+#include "truth/limit_truth.h"
 
 namespace sublimit::testing {
 namespace {

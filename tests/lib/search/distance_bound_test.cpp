@@ -5,13 +5,13 @@
 
 #include <random>
 
+#include "meshes/hard_meshes.h"
+#include "meshes/meshes.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/detail/net_distance.h"
-#include "support/hard_meshes.h"
-#include "support/meshes.h"
-#include "support/tolerance.h"
 #include "sublimit/search/detail/searched_surface.h"
+#include "support/tolerance.h"
 
 namespace sublimit {
 namespace {

@@ -15,11 +15,11 @@
 #include <memory>
 #include <random>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/intersect.h"
-#include "support/meshes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <random>
 
+#include "meshes/meshes.h"
+#include "meshes/places.h"
 #include "sublimit/base/error.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/detail/tracer.h"
 #include "sublimit/tessellation/tessellate.h"
-#include "support/meshes.h"
-#include "support/places.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

@@ -8,19 +8,19 @@
 #include <string>
 #include <vector>
 
+#include "meshes/meshes.h"
 #include "sublimit/cad/limit_quads.h"
-#include "sublimit/nets/limit_cells.h"
 #include "sublimit/integrals/limit_integrals.h"
-#include "sublimit/surface/limit_map.h"
+#include "sublimit/nets/limit_cells.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
-#include "sublimit/search/intersect.h"
+#include "sublimit/search/detail/searched_surface.h"
 #include "sublimit/search/detail/winding.h"
+#include "sublimit/search/intersect.h"
+#include "sublimit/surface/limit_map.h"
 #include "sublimit/tessellation/detail/bezier_cells.h"
 #include "sublimit/tessellation/tessellate.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
-#include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit::testing {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays through marked points of meshes of the tests' own, under every scheme.
-#include "support/ray_laws.h"
+#include "laws/ray_laws.h"
 
-#include "support/full_sweep.h"
-#include "support/meshes.h"
+#include "laws/full_sweep.h"
+#include "meshes/meshes.h"
 
 namespace sublimit::testing {
 namespace {

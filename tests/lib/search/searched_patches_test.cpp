@@ -8,17 +8,17 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/patches/detail/basis_surface.h"
+#include "meshes/construction_data.h"
 #include "sublimit/patches/constructions/revolution.h"
 #include "sublimit/patches/constructions/ruled.h"
 #include "sublimit/patches/constructions/screw_surface.h"
 #include "sublimit/patches/constructions/triangle_patch.h"
+#include "sublimit/patches/detail/basis_surface.h"
 #include "sublimit/patches/detail/cut_patch.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
-#include "sublimit/search/intersect.h"
 #include "sublimit/search/detail/winding.h"
-#include "support/construction_data.h"
+#include "sublimit/search/intersect.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
 

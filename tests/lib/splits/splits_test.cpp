@@ -7,12 +7,12 @@
 #include <numeric>
 #include <span>
 
+#include "meshes/broken_topology.h"
+#include "meshes/meshes.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/broken_topology.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

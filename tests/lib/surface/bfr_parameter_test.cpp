@@ -4,10 +4,10 @@
 
 #include <opensubdiv/bfr/parameterization.h>
 
+#include "meshes/meshes.h"
+#include "peers/opensubdiv_limit_reference.h"
 #include "sublimit/source/address.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
-#include "support/opensubdiv_limit_reference.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

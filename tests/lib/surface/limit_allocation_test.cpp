@@ -5,10 +5,10 @@
 
 #include <random>
 
-#include "sublimit/surface/limit_surface.h"
+#include "meshes/meshes.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/surface/limit_surface.h"
 #include "support/allocations.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

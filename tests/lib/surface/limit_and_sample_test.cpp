@@ -5,14 +5,14 @@
 
 #include <Eigen/Geometry>
 
+#include "laws/laws.h"
+#include "laws/tested_schemes.h"
+#include "meshes/places.h"
+#include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/surface/limit_map.h"
-#include "sublimit/limit/detail/limit_cache.h"
-#include "support/laws.h"
-#include "support/limit_truth.h"
-#include "support/places.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
+#include "truth/limit_truth.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,11 +5,11 @@
 #include <map>
 #include <random>
 
+#include "meshes/hard_meshes.h"
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/hard_meshes.h"
-#include "support/meshes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -9,11 +9,11 @@
 #include <random>
 #include <thread>
 
-#include "sublimit/surface/limit_surface.h"
+#include "laws/tested_schemes.h"
+#include "meshes/places.h"
 #include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/surface/limit_surface.h"
 #include "support/expect_error.h"
-#include "support/places.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

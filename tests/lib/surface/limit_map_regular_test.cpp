@@ -9,9 +9,9 @@
 #include <functional>
 #include <random>
 
+#include "laws/tested_schemes.h"
 #include "sublimit/source/curvature.h"
 #include "sublimit/surface/limit_map.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 
-#include "sublimit/surface/limit_map.h"
+#include "meshes/meshes.h"
+#include "meshes/places.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
-#include "support/places.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/limit/detail/limit_points.h"
+#include "laws/tested_schemes.h"
+#include "meshes/places.h"
 #include "sublimit/limit/detail/limit_cache.h"
-#include "support/places.h"
-#include "support/tested_schemes.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The limit surface against the truth (support/limit_truth.h), for every scheme, on meshes that have everything at
+// The limit surface against the truth (truth/limit_truth.h), for every scheme, on meshes that have everything at
 // once: at random places, on edges, and towards irregular vertices down to 2^-40.
 #include <gtest/gtest.h>
 
@@ -10,13 +10,13 @@
 #include <random>
 #include <sstream>
 
+#include "laws/tested_schemes.h"
+#include "meshes/places.h"
+#include "meshes/shared_meshes.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/surface/limit_map.h"
-#include "support/limit_truth.h"
-#include "support/places.h"
-#include "support/shared_meshes.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
+#include "truth/limit_truth.h"
 
 namespace sublimit::testing {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/surface/limit_map.h"
+#include "meshes/meshes.h"
+#include "meshes/places.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
-#include "support/places.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit::testing {
 namespace {

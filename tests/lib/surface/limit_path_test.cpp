@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "laws/tested_schemes.h"
+#include "meshes/meshes.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
-#include "support/tested_schemes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <Eigen/Geometry>
 
+#include "meshes/irregular_meshes.h"
+#include "meshes/shared_meshes.h"
+#include "peers/compare_with_opensubdiv.h"
+#include "peers/dyadic_limits.h"
+#include "peers/opensubdiv_limit_reference.h"
 #include "sublimit/io/read_mesh.h"
-#include "support/compare_with_opensubdiv.h"
-#include "support/dyadic_limits.h"
-#include "support/irregular_meshes.h"
-#include "support/opensubdiv_limit_reference.h"
-#include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

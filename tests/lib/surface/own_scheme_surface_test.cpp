@@ -6,15 +6,15 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/surface/limit_map.h"
+#include "laws/limits_at_thirds.h"
+#include "meshes/hard_meshes.h"
+#include "meshes/meshes.h"
+#include "meshes/places.h"
 #include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/scheme/cubic_bspline_creases.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/hard_meshes.h"
-#include "support/limits_at_thirds.h"
-#include "support/meshes.h"
-#include "support/places.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -11,15 +11,15 @@
 #include <cmath>
 #include <random>
 
-#include "sublimit/surface/limit_map.h"
+#include "meshes/hard_meshes.h"
+#include "meshes/meshes.h"
+#include "meshes/places.h"
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/scheme/detail/refine_impl.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/hard_meshes.h"
-#include "support/meshes.h"
-#include "support/places.h"
-#include "support/precise_schemes.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/tolerance.h"
+#include "truth/precise_schemes.h"
 
 namespace sublimit::testing {
 namespace {

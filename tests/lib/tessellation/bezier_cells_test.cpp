@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/nets/net_derivatives.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

@@ -7,9 +7,9 @@
 #include <random>
 #include <set>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

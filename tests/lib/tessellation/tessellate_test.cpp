@@ -10,11 +10,11 @@
 #include <random>
 #include <set>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/integrals/limit_integrals.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/tessellation/detail/edge_rates.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit {

@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "sublimit/stencils/bake/detail/bake.h"
+#include "meshes/meshes.h"
+#include "meshes/random_doubles.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
-#include "sublimit/surface/limit_map.h"
-#include "sublimit/eval/detail/point_addresses.h"
+#include "sublimit/eval/table/detail/point_addresses.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
-#include "support/random_doubles.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/temporary_directory.h"
 #include "support/tolerance.h"
 

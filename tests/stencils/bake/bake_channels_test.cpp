@@ -4,17 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/stencils/bake/detail/applied_points.h"
-#include "sublimit/stencils/bake/detail/table_mesh.h"
-#include "sublimit/eval/detail/check_table.h"
+#include "laws/tested_schemes.h"
+#include "meshes/face_varying_meshes.h"
+#include "meshes/same_mesh.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/stencils/files/level_files.h"
+#include "sublimit/eval/file/detail/check_table.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/limit/detail/limit_points.h"
+#include "sublimit/stencils/bake/detail/applied_points.h"
+#include "sublimit/stencils/bake/detail/table_mesh.h"
+#include "sublimit/stencils/files/level_files.h"
 #include "support/expect_error.h"
-#include "support/face_varying_meshes.h"
-#include "support/same_mesh.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

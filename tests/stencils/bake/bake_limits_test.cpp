@@ -8,14 +8,14 @@
 #include <map>
 #include <random>
 
-#include "sublimit/stencils/bake/detail/bake.h"
+#include "laws/tested_schemes.h"
+#include "meshes/shared_meshes.h"
 #include "sublimit/limit/detail/limit_masks.h"
 #include "sublimit/limit/detail/limit_points.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/scheme/detail/prepare.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/expect_error.h"
-#include "support/shared_meshes.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

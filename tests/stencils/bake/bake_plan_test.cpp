@@ -2,11 +2,11 @@
 // A plan counts what the bake makes, to the byte, of wide masks at most; tables by rows it estimates.
 #include <gtest/gtest.h>
 
-#include "sublimit/stencils/bake/detail/bake.h"
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

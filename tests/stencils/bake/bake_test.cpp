@@ -12,15 +12,15 @@
 #include <thread>
 #include <set>
 
-#include "sublimit/io/read_mesh.h"
+#include "laws/tested_schemes.h"
+#include "meshes/shared_meshes.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/eval/kernels/apply_patches.h"
-#include "sublimit/source/address.h"
+#include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/detail/limit_masks.h"
-#include "sublimit/eval/pattern_evaluator.h"
 #include "sublimit/scheme/detail/prepare.h"
+#include "sublimit/source/address.h"
 #include "support/expect_error.h"
-#include "support/shared_meshes.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "laws/tested_schemes.h"
+#include "meshes/meshes.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
-#include "support/tested_schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <vector>
 
+#include "laws/tested_schemes.h"
+#include "meshes/shared_meshes.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/limit/detail/limit_points.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/surface/limit_map.h"
-#include "support/shared_meshes.h"
-#include "support/tested_schemes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

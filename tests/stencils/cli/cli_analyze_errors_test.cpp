@@ -4,9 +4,9 @@
 
 #include <fstream>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "meshes/free_form_shapes.h"
 #include "stencils/cli_program.h"
 #include "stencils/markup.h"
-#include "support/free_form_shapes.h"
 
 namespace sublimit::testing {
 namespace {

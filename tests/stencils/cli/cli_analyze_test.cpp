@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "stencils/summary_rows.h"
 #include "sublimit/certificates/numbers/algebraic.h"
 #include "sublimit/io/detail/obj.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

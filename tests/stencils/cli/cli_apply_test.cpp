@@ -8,7 +8,7 @@
 #include <random>
 
 #include "stencils/cli_tables.h"
-#include "sublimit/stencils/files/npy.h"
+#include "sublimit/stencils/formats/npy.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -2,9 +2,9 @@
 // `bake --face-varying --tags`, then `apply`: the mesh that `refine` writes, in another order, and refining goes on.
 #include <gtest/gtest.h>
 
+#include "meshes/face_varying_meshes.h"
+#include "meshes/same_mesh.h"
 #include "stencils/cli_tables.h"
-#include "support/face_varying_meshes.h"
-#include "support/same_mesh.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

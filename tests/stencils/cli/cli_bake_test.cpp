@@ -6,7 +6,7 @@
 #include <csignal>
 
 #include "stencils/cli_tables.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/file/table_file.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/stencils/bake/detail/table_info.h"

@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "laws/stationary.h"
 #include "stencils/cli_program.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/io/detail/polygon_files.h"
-#include "support/stationary.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

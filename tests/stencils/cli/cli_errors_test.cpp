@@ -12,9 +12,9 @@
 
 #include <linux/capability.h>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

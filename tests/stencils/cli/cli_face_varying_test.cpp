@@ -2,12 +2,12 @@
 // Texture coordinates through the program: refined, in the limit, and refined again from what was written.
 #include <gtest/gtest.h>
 
+#include "meshes/face_varying_meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/stencils/files/level_files.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/face_varying_meshes.h"
+#include "sublimit/stencils/files/level_files.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "meshes/free_form_shapes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/free_form.h"
-#include "support/free_form_shapes.h"
 
 namespace sublimit::testing {
 namespace {

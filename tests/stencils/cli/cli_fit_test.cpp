@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "stencils/drawn_panels.h"
 #include "stencils/markup.h"
@@ -15,7 +16,6 @@
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -7,11 +7,11 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "meshes/free_form_shapes.h"
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
 #include "stencils/markup.h"
 #include "sublimit/base/detail/format_number.h"
-#include "support/free_form_shapes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "meshes/free_form_shapes.h"
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/stencils/files/npy.h"
 #include "sublimit/io/read_mesh.h"
-#include "support/free_form_shapes.h"
+#include "sublimit/stencils/formats/npy.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

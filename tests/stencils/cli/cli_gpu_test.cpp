@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "meshes/free_form_shapes.h"
 #include "stencils/cli_tables.h"
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/stencils/files/npy.h"
-#include "support/free_form_shapes.h"
+#include "sublimit/stencils/formats/npy.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

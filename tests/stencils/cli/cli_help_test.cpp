@@ -4,9 +4,9 @@
 
 #include <utility>
 
+#include "meshes/meshes.h"
 #include "stencils/subcommands.h"
 #include "sublimit/io/detail/obj.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

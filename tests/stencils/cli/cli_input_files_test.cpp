@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <map>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/ply.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

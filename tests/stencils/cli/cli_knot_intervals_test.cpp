@@ -2,13 +2,13 @@
 // Knot intervals through the program: tags and sidecars read and written back, tables, reports, what is refused.
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
+#include "meshes/point_intervals.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/schemes/schemes.h"
 #include "sublimit/scheme/refine.h"
-#include "support/meshes.h"
-#include "support/point_intervals.h"
+#include "sublimit/schemes/schemes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

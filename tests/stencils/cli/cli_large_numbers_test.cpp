@@ -5,9 +5,9 @@
 
 #include <regex>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

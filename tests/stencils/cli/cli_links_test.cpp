@@ -7,9 +7,9 @@
 #include <sys/prctl.h>
 #include <sys/stat.h>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -2,9 +2,9 @@
 // Numbers in messages have the shortest form that reads back: what is wrong with 1.000000001 is not wrong with 1.
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
-#include "sublimit/stencils/files/npy.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "support/meshes.h"
+#include "sublimit/stencils/formats/npy.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "meshes/free_form_shapes.h"
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
 #include "stencils/recipes/recipe_samples.h"
-#include "support/free_form_shapes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
+#include "meshes/meshes.h"
 #include "optional_parts.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -11,15 +11,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/stencils/files/random_samples.h"
 #include "sublimit/io/detail/obj.h"
-#include "sublimit/source/curvature.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
+#include "sublimit/source/curvature.h"
+#include "sublimit/stencils/files/random_samples.h"
+#include "sublimit/surface/limit_map.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

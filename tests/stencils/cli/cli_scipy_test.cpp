@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <random>
 
+#include "meshes/free_form_shapes.h"
 #include "stencils/cli/python_with_scipy.h"
 #include "stencils/cli_program.h"
 #include "sublimit/base/detail/format_number.h"
-#include "support/free_form_shapes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -3,8 +3,8 @@
 // right.
 #include <chrono>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_tables.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

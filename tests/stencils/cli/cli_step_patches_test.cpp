@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "meshes/free_form_shapes.h"
 #include "stencils/cli_program.h"
 #include "stencils/recipes/recipe_samples.h"
-#include "support/free_form_shapes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -3,12 +3,12 @@
 // shells. Its points are searched for on the limit, or on the patches.
 #include <gtest/gtest.h>
 
+#include "meshes/free_form_shapes.h"
+#include "meshes/meshes.h"
 #include "stencils/cli/python_with_scipy.h"
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
 #include "sublimit/io/detail/obj.h"
-#include "support/free_form_shapes.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

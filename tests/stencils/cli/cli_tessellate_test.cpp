@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "stencils/csv_fields.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "support/meshes.h"
 #include "support/skip.h"
 #include "support/tolerance.h"
 

@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "meshes/meshes.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 #include "support/temporary_directory.h"
 #include "support/tolerance.h"
 

@@ -4,12 +4,12 @@
 
 #include <set>
 
+#include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/stencils/files/level_files.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
+#include "sublimit/stencils/files/level_files.h"
 
 namespace sublimit::testing {
 namespace {

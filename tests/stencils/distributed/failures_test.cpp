@@ -8,10 +8,10 @@
 #include <fstream>
 #include <thread>
 
+#include "meshes/meshes.h"
 #include "stencils/distributed/run_ranks.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/stencils/shards/shard_file.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -8,14 +8,14 @@
 #include <random>
 #include <sstream>
 
+#include "meshes/meshes.h"
 #include "stencils/distributed/run_ranks.h"
-#include "sublimit/stencils/files/npy.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/ply.h"
-#include "sublimit/surface/limit_map.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
+#include "sublimit/stencils/formats/npy.h"
+#include "sublimit/surface/limit_map.h"
 
 namespace sublimit::testing {
 namespace {

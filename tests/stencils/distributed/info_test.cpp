@@ -2,12 +2,12 @@
 // `sublimit-mpi info`: the counts of one process.
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "stencils/distributed/run_ranks.h"
 #include "stencils/distributed/tagged_unions.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/stencils/jobs/detail/mesh_info_json.h"
-#include "support/meshes.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit::testing {

@@ -7,14 +7,14 @@
 #include <numeric>
 #include <random>
 
+#include "meshes/meshes.h"
+#include "meshes/shared_meshes.h"
 #include "stencils/distributed/run_ranks.h"
+#include "sublimit/eval/file/detail/safetensors.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/ply.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/stencils/files/npy.h"
-#include "sublimit/eval/detail/safetensors.h"
-#include "support/meshes.h"
-#include "support/shared_meshes.h"
+#include "sublimit/stencils/formats/npy.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,13 +5,13 @@
 #include <array>
 #include <numeric>
 
+#include "meshes/meshes.h"
 #include "stencils/distributed/run_ranks.h"
-#include "sublimit/stencils/bake/detail/bake_patterns.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/eval/pattern_evaluator.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
+#include "sublimit/stencils/bake/detail/bake_patterns.h"
 
 namespace sublimit::testing {
 namespace {

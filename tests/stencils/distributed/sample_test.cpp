@@ -4,10 +4,10 @@
 
 #include <fstream>
 
+#include "meshes/meshes.h"
 #include "stencils/distributed/run_ranks.h"
 #include "stencils/distributed/tagged_unions.h"
 #include "sublimit/io/detail/obj.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -2,9 +2,9 @@
 // distributed.h, by a program that has it alone (table_driver.cpp).
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "stencils/distributed/run_ranks.h"
 #include "sublimit/io/write_mesh.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

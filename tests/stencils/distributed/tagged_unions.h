@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "support/meshes.h"
+#include "meshes/meshes.h"
 
 namespace sublimit::testing {
 

@@ -8,19 +8,19 @@
 #include <cstdlib>
 #include <random>
 
-#include "eval/table_samples.h"
-#include "sublimit/stencils/bake/detail/bake.h"
-#include "sublimit/base/error.h"
+#include "eval/file/table_samples.h"
+#include "meshes/free_form_shapes.h"
 #include "sublimit/base/detail/read_file.h"
-#include "sublimit/stencils/files/npy.h"
-#include "sublimit/stencils/files/npz.h"
-#include "sublimit/eval/pattern_evaluator.h"
-#include "sublimit/stencils/patterns/demo_mesh.h"
+#include "sublimit/base/error.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
+#include "sublimit/eval/file/table_file.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/schemes/schemes.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/stencils/bake/detail/bake.h"
+#include "sublimit/stencils/formats/npy.h"
+#include "sublimit/stencils/formats/npz.h"
+#include "sublimit/stencils/patterns/demo_mesh.h"
 #include "support/expect_error.h"
-#include "support/free_form_shapes.h"
 #include "support/skip.h"
 #include "support/temporary_directory.h"
 

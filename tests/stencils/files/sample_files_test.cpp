@@ -7,12 +7,12 @@
 #include <bit>
 #include <cmath>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
-#include "sublimit/stencils/files/random_samples.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/stencils/files/random_samples.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/temporary_directory.h"
 #include "support/tolerance.h"
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

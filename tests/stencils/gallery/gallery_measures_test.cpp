@@ -7,10 +7,10 @@
 #include <numbers>
 #include <random>
 
-#include "sublimit/stencils/gallery/cages.h"
+#include "meshes/meshes.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
+#include "sublimit/stencils/gallery/cages.h"
 
 namespace sublimit::testing {
 namespace {

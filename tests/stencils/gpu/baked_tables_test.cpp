@@ -14,16 +14,16 @@
 #include "eval/gpu/comparisons.h"
 #include "eval/gpu/made_tables.h"
 #include "eval/gpu/test_device.h"
-#include "sublimit/stencils/bake/detail/bake.h"
+#include "laws/tested_schemes.h"
+#include "meshes/face_varying_meshes.h"
+#include "meshes/free_form_shapes.h"
+#include "meshes/shared_meshes.h"
 #include "sublimit/base/error.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/eval/gpu/gpu_evaluator.h"
 #include "sublimit/io/read_mesh.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/surface/limit_map.h"
-#include "sublimit/eval/pattern_evaluator.h"
-#include "support/face_varying_meshes.h"
-#include "support/free_form_shapes.h"
-#include "support/shared_meshes.h"
-#include "support/tested_schemes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -7,11 +7,11 @@
 #include <fstream>
 #include <set>
 
-#include "sublimit/stencils/bake/detail/bake.h"
+#include "laws/tested_schemes.h"
 #include "sublimit/limit/detail/limit_masks.h"
+#include "sublimit/stencils/bake/detail/bake.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
-#include "support/tested_schemes.h"
 
 namespace sublimit::testing {
 namespace {

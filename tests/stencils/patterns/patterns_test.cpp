@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <cmath>
 
+#include "meshes/construction_data.h"
 #include "stencils/recipes/recipe_samples.h"
 #include "sublimit/stencils/recipes/detail/net_file.h"
 #include "sublimit/stencils/recipes/detail/recipe_sources.h"
-#include "support/construction_data.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {

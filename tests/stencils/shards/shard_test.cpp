@@ -6,10 +6,10 @@
 
 #include <random>
 
+#include "meshes/meshes.h"
 #include "sublimit/base/error.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 
 namespace sublimit::testing {
 namespace {

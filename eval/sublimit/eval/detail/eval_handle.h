@@ -6,9 +6,9 @@
 #include <utility>
 #include <variant>
 
-#include "sublimit/eval/baked_table.h"
 #include "sublimit/eval/eval.h"
-#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
+#include "sublimit/eval/table/baked_table.h"
 
 namespace sublimit::c {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of the C interface that reads files.
 #include "sublimit/eval/detail/eval_handle.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/file/table_file.h"
 
 namespace {
 

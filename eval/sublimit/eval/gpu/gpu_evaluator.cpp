@@ -12,7 +12,7 @@
 #include "sublimit/base/detail/found_once.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/eval/detail/evaluation_layouts.h"
+#include "sublimit/eval/evaluate/detail/evaluation_layouts.h"
 #include "sublimit/eval/gpu/detail/driver.h"
 #include "sublimit/eval/gpu/detail/memory_pool.h"
 #include "sublimit/eval/gpu/detail/packed_table.h"

@@ -11,9 +11,9 @@
 #include <memory>
 #include <span>
 
-#include "sublimit/eval/evaluation.h"
+#include "sublimit/eval/evaluate/evaluation.h"
 #include "sublimit/eval/gpu/gpu_device.h"
-#include "sublimit/eval/pattern_table.h"
+#include "sublimit/eval/table/pattern_table.h"
 
 namespace sublimit {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sublimit/eval/detail/packed_rows.h"
+#include "sublimit/eval/kernels/packed_rows.h"
 
 namespace sublimit::kernels {
 

@@ -7,17 +7,9 @@
 //   std::ofstream("bracket.step", std::ios::binary) << made.bytes;
 #include <string>
 
-#include "sublimit/cad/boundary_model.h"
+#include "sublimit/cad/step_file.h"
 
 namespace sublimit {
-
-/// The content of a CAD file and statistics of it.
-struct CadFile {
-  std::string bytes;           ///< content of the file
-  int solids = 0, shells = 0;  ///< closed and open parts
-  double volume = 0;           ///< total volume of the solids, from the volumes of their faces
-  bool is_valid = false;       ///< result of OpenCASCADE's own check
-};
 
 /// Returns a model as the content of a file.
 /// @param name  name of the product in the file

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "sublimit/base/error.h"
-#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/formats/rule_of_word.h"
 #include "sublimit/stencils/jobs/detail/mesh_info_json.h"
 
 namespace sublimit {

@@ -11,7 +11,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/mesh/points_file.h"
 #include "sublimit/io/detail/file_extension.h"
-#include "sublimit/stencils/files/npy.h"
+#include "sublimit/stencils/formats/npy.h"
 
 namespace sublimit {
 namespace {

@@ -11,8 +11,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/jobs/place_routes.h"
 #include "sublimit/distributed/mesh/shared_file.h"
-#include "sublimit/stencils/files/csv_fields.h"
 #include "sublimit/stencils/files/random_samples.h"
+#include "sublimit/stencils/formats/csv_fields.h"
 
 namespace sublimit {
 namespace {

@@ -12,8 +12,8 @@
 #include "sublimit/distributed/shards/shard_faces.h"
 #include "sublimit/distributed/shards/spread_frames.h"
 #include "sublimit/io/detail/file_extension.h"
-#include "sublimit/stencils/files/npy.h"
-#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/formats/npy.h"
+#include "sublimit/stencils/formats/rule_of_word.h"
 
 namespace sublimit {
 namespace {

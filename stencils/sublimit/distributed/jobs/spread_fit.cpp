@@ -15,7 +15,7 @@
 #include "sublimit/distributed/shards/spread_rows.h"
 #include "sublimit/fit/scattered_fit.h"
 #include "sublimit/io/detail/file_extension.h"
-#include "sublimit/stencils/files/npy.h"
+#include "sublimit/stencils/formats/npy.h"
 #include "sublimit/stencils/patterns/patterns.h"
 #include "sublimit/surface/limit_map.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "sublimit/distributed/jobs/place_routes.h"
-#include "sublimit/stencils/files/csv_rows.h"
+#include "sublimit/stencils/formats/csv_rows.h"
 
 namespace sublimit {
 

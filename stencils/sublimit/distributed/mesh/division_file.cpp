@@ -9,7 +9,7 @@
 #include "sublimit/base/detail/mapped_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/mesh/shared_file.h"
-#include "sublimit/eval/detail/safetensors.h"
+#include "sublimit/eval/file/detail/safetensors.h"
 
 namespace sublimit {
 

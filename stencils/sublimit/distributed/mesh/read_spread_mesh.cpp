@@ -10,7 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/mesh/spread_readers.h"
 #include "sublimit/io/detail/file_extension.h"
-#include "sublimit/stencils/files/sidecar.h"
+#include "sublimit/stencils/formats/sidecar.h"
 
 namespace sublimit {
 namespace {

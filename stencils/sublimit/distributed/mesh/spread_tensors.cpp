@@ -5,7 +5,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/mesh/spread_readers.h"
-#include "sublimit/eval/detail/safetensors.h"
+#include "sublimit/eval/file/detail/safetensors.h"
 
 namespace sublimit {
 namespace {

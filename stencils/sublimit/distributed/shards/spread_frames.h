@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "sublimit/distributed/mesh/spread_mesh.h"
-#include "sublimit/stencils/files/npy.h"
+#include "sublimit/stencils/formats/npy.h"
 
 namespace sublimit {
 

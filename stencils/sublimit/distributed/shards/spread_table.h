@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "sublimit/distributed/mesh/halo.h"
-#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/stencils/shards/shard_file.h"
 
 namespace sublimit {

@@ -2,7 +2,7 @@
 #pragma once
 // The effect of unequal knot intervals at extraordinary vertices.
 #include "sublimit/scheme/scheme.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
 
 namespace sublimit::report {
 

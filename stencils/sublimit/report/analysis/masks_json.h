@@ -3,7 +3,7 @@
 // `masks` of a neighbourhood: decimals from the limit masks by which surfaces are evaluated, and exact numbers
 // beside them.
 #include "sublimit/certificates/spectra/exact_masks.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
 
 namespace sublimit::report {
 

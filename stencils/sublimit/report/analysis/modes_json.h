@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "sublimit/certificates/spectra/local_modes.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
 #include "sublimit/surface/limit_map.h"
 
 namespace sublimit::report {

@@ -9,7 +9,7 @@
 #include "sublimit/certificates/c1/c1_certificate.h"
 #include "sublimit/certificates/spectra/verdict.h"
 #include "sublimit/report/analysis/scheme_report.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
 #include "sublimit/surface/limit_map.h"
 
 namespace sublimit::report {

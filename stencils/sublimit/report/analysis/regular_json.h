@@ -6,7 +6,7 @@
 #include "sublimit/certificates/regularity/surface_regularity.h"
 #include "sublimit/certificates/regularity/sweep.h"
 #include "sublimit/certificates/regularity/typed_mask.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
 
 namespace sublimit::report {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "sublimit/base/version.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
 
 namespace sublimit::report {
 namespace {

@@ -3,7 +3,7 @@
 // `spectrum` of a neighbourhood, and the entries that follow from it: lambda, mu, their ratio, and the blocks
 // with mu.
 #include "sublimit/certificates/spectra/exact_spectrum.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
 
 namespace sublimit::report {
 

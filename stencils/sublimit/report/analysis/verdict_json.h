@@ -2,7 +2,7 @@
 #pragma once
 // Verdicts in report.json.
 #include "sublimit/certificates/spectra/verdict.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
 
 namespace sublimit::report {
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "sublimit/eval/face_lattices.h"
+#include "sublimit/eval/table/face_lattices.h"
 #include "sublimit/mesh/mesh.h"
 #include "sublimit/scheme/any_scheme.h"
 

@@ -10,8 +10,8 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
-#include "sublimit/stencils/files/csv_fields.h"
 #include "sublimit/stencils/files/frames.h"
+#include "sublimit/stencils/formats/csv_fields.h"
 
 namespace sublimit {
 Points read_query_points(const std::filesystem::path& path) {

@@ -15,11 +15,11 @@
 #include "sublimit/base/detail/file_error.h"
 #include "sublimit/base/detail/followed_links.h"
 #include "sublimit/base/error.h"
-#include "sublimit/eval/detail/table_tensors.h"
+#include "sublimit/eval/file/detail/table_tensors.h"
 #include "sublimit/io/detail/file_extension.h"
-#include "sublimit/stencils/files/matrix_market.h"
-#include "sublimit/stencils/files/npy.h"
-#include "sublimit/stencils/files/npz.h"
+#include "sublimit/stencils/formats/matrix_market.h"
+#include "sublimit/stencils/formats/npy.h"
+#include "sublimit/stencils/formats/npz.h"
 
 namespace sublimit {
 namespace {

@@ -3,7 +3,7 @@
 // Export of tables to file formats of other programs.
 #include <filesystem>
 
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/file/table_file.h"
 
 namespace sublimit {
 

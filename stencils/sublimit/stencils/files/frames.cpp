@@ -10,7 +10,7 @@
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/polygon_files.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/stencils/files/npy.h"
+#include "sublimit/stencils/formats/npy.h"
 
 namespace sublimit {
 namespace {

@@ -15,7 +15,7 @@
 #include "sublimit/patches/curve_set.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/source/linear_source.h"
-#include "sublimit/stencils/files/csv_rows.h"
+#include "sublimit/stencils/formats/csv_rows.h"
 
 namespace sublimit {
 

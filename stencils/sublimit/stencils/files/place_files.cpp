@@ -13,8 +13,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/ply.h"
-#include "sublimit/stencils/files/csv_fields.h"
 #include "sublimit/stencils/files/sample_files.h"
+#include "sublimit/stencils/formats/csv_fields.h"
 
 namespace sublimit {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/stencils/files/csv_rows.h"
+#include "sublimit/stencils/formats/csv_rows.h"
 
 namespace sublimit {
 

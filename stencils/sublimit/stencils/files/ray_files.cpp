@@ -7,8 +7,8 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
-#include "sublimit/stencils/files/csv_fields.h"
-#include "sublimit/stencils/files/csv_rows.h"
+#include "sublimit/stencils/formats/csv_fields.h"
+#include "sublimit/stencils/formats/csv_rows.h"
 
 namespace sublimit {
 

@@ -10,7 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/source/curvature.h"
 #include "sublimit/source/detail/why_outside.h"
-#include "sublimit/stencils/files/csv_fields.h"
+#include "sublimit/stencils/formats/csv_fields.h"
 
 namespace sublimit {
 namespace {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "sublimit/base/detail/atomic_file.h"
-#include "sublimit/stencils/files/csv_rows.h"
 #include "sublimit/stencils/files/patch_places.h"
+#include "sublimit/stencils/formats/csv_rows.h"
 #include "sublimit/surface/limit_map.h"
 
 namespace sublimit {

@@ -5,8 +5,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/read_mesh.h"
-#include "sublimit/stencils/files/csv_rows.h"
 #include "sublimit/stencils/fit_jobs/fit_job.h"
+#include "sublimit/stencils/formats/csv_rows.h"
 
 namespace sublimit {
 namespace {

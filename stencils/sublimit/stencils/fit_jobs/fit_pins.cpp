@@ -6,8 +6,8 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/file_extension.h"
-#include "sublimit/stencils/files/csv_rows.h"
 #include "sublimit/stencils/fit_jobs/fit_job.h"
+#include "sublimit/stencils/formats/csv_rows.h"
 
 namespace sublimit {
 namespace {

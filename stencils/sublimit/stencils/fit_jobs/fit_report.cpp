@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
 
 namespace sublimit {
 namespace {

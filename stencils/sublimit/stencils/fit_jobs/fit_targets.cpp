@@ -12,9 +12,9 @@
 #include "sublimit/base/error.h"
 #include "sublimit/geometric/curvature_mesh.h"
 #include "sublimit/neighborhood/vertex_sides.h"
-#include "sublimit/stencils/files/csv_rows.h"
 #include "sublimit/stencils/files/patch_places.h"
 #include "sublimit/stencils/files/sample_files.h"
+#include "sublimit/stencils/formats/csv_rows.h"
 
 namespace sublimit {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/source/address.h"
-#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/formats/rule_of_word.h"
 #include "sublimit/stencils/jobs/detail/mesh_info_json.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
 

@@ -9,7 +9,7 @@
 
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/eval/pattern_table.h"
+#include "sublimit/eval/table/pattern_table.h"
 #include "sublimit/stencils/patterns/patterns.h"
 
 namespace sublimit {

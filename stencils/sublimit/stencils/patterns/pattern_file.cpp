@@ -9,8 +9,8 @@
 
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/eval/detail/safetensors.h"
-#include "sublimit/eval/pattern_table.h"
+#include "sublimit/eval/file/detail/safetensors.h"
+#include "sublimit/eval/table/pattern_table.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/stencils/patterns/demo_mesh.h"
 

@@ -13,7 +13,7 @@
 #include <span>
 
 #include "sublimit/base/detail/found_once.h"
-#include "sublimit/eval/face_lattices.h"
+#include "sublimit/eval/table/face_lattices.h"
 #include "sublimit/limit/detail/limit_cache.h"
 
 namespace sublimit {

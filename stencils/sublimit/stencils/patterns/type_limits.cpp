@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/eval/pattern_table.h"
+#include "sublimit/eval/table/pattern_table.h"
 #include "sublimit/stencils/patterns/point_status.h"
 #include "sublimit/surface/detail/limit_map_parts.h"
 

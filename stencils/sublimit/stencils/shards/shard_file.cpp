@@ -11,8 +11,8 @@
 #include "sublimit/base/detail/mapped_file.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/eval/detail/table_tensors.h"
-#include "sublimit/eval/table_file.h"
+#include "sublimit/eval/file/detail/table_tensors.h"
+#include "sublimit/eval/file/table_file.h"
 
 namespace sublimit {
 namespace {

@@ -17,15 +17,15 @@
 #include <random>
 #include <sstream>
 
+#include "meshes/free_form_shapes.h"
+#include "meshes/spline_models.h"
 #include "sublimit/base/error.h"
 #include "sublimit/cad/opencascade/write_cad.h"
 #include "sublimit/cad/patch_model.h"
-#include "sublimit/patches/detail/basis_surface.h"
 #include "sublimit/patches/constructions/triangle_patch.h"
+#include "sublimit/patches/detail/basis_surface.h"
 #include "sublimit/patches/detail/cut_patch.h"
 #include "sublimit/patches/detail/free_form_patches.h"
-#include "support/free_form_shapes.h"
-#include "support/spline_models.h"
 #include "support/temporary_directory.h"
 #include "support/tolerance.h"
 

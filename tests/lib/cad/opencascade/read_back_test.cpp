@@ -22,11 +22,11 @@
 #include <map>
 #include <sstream>
 
+#include "meshes/meshes.h"
 #include "sublimit/cad/limit_model.h"
 #include "sublimit/cad/opencascade/write_cad.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
-#include "support/meshes.h"
 #include "support/temporary_directory.h"
 #include "support/tolerance.h"
 

@@ -9,9 +9,9 @@
 #include <memory>
 #include <vector>
 
+#include "meshes/meshes.h"
 #include "sublimit/patches/spline_surface.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "sublimit/schemes/doo_sabin.h"
-#include "support/precise_schemes.h"
+#include "truth/precise_schemes.h"
 
 namespace sublimit {
 namespace {

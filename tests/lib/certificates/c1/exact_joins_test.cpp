@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "support/spline_models.h"
+#include "meshes/spline_models.h"
 
 namespace sublimit::testing {
 namespace {

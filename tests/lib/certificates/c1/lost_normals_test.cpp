@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of the table of lost normals are proved by exact verdicts, or have evidence by them, and are not proved for the
 // numbers of faces that they leave out.
-#include "support/lost_normals.h"
+#include "laws/lost_normals.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
-#include "support/precise_schemes.h"
+#include "truth/precise_schemes.h"
 
 namespace sublimit {
 namespace {

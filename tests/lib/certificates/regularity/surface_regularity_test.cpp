@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "laws/misreadings.h"
 #include "sublimit/certificates/regularity/rational_schemes.h"
-#include "support/misreadings.h"
 
 namespace sublimit {
 namespace {

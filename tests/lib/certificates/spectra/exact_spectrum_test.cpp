@@ -9,7 +9,7 @@
 #include <map>
 
 #include "lib/certificates/spectra/exact_analyses.h"
-#include "support/local_spectrum.h"
+#include "truth/local_spectrum.h"
 
 namespace sublimit {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "laws/misreadings.h"
 #include "lib/certificates/spectra/exact_analyses.h"
-#include "support/misreadings.h"
 
 namespace sublimit {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/construction_data.h"
+#include "meshes/construction_data.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {

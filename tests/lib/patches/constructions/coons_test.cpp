@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/construction_data.h"
 #include "sublimit/patches/constructions/gregory_patch.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"
 #include "sublimit/patches/constructions/ruled.h"
-#include "support/construction_data.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "meshes/construction_data.h"
 #include "sublimit/patches/constructions/coons.h"
 #include "sublimit/patches/constructions/gordon.h"
 #include "sublimit/patches/constructions/hermite.h"
@@ -12,7 +13,6 @@
 #include "sublimit/patches/constructions/lagrange_curve.h"
 #include "sublimit/patches/constructions/ruled.h"
 #include "sublimit/patches/constructions/swept.h"
-#include "support/construction_data.h"
 
 namespace sublimit::testing {
 namespace {

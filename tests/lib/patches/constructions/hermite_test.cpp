@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "meshes/construction_data.h"
 #include "sublimit/patches/constructions/coons.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"
-#include "support/construction_data.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {

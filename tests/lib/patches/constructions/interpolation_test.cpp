@@ -8,7 +8,7 @@
 
 #include <Eigen/LU>
 
-#include "support/construction_data.h"
+#include "meshes/construction_data.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "meshes/construction_data.h"
 #include "sublimit/patches/constructions/lagrange_surface.h"
-#include "support/construction_data.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {

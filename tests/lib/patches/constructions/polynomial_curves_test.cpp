@@ -6,9 +6,9 @@
 
 #include <cmath>
 
+#include "meshes/construction_data.h"
 #include "sublimit/patches/constructions/graph.h"
 #include "sublimit/patches/constructions/power_coefficients.h"
-#include "support/construction_data.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/construction_data.h"
+#include "meshes/construction_data.h"
 #include "support/expect_error.h"
 
 namespace sublimit::testing {

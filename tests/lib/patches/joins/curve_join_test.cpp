@@ -9,8 +9,8 @@
 #include <random>
 
 #include "support/expect_error.h"
-#include "support/fraction.h"
 #include "support/tolerance.h"
+#include "truth/fraction.h"
 
 namespace sublimit::testing {
 namespace {

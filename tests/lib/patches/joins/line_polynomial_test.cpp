@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "support/fraction.h"
+#include "truth/fraction.h"
 
 namespace sublimit::testing {
 namespace {

@@ -8,12 +8,12 @@
 #include <numbers>
 #include <random>
 
+#include "meshes/spline_models.h"
 #include "sublimit/patches/detail/finer_knots.h"
 #include "sublimit/patches/joins/seam_vertices.h"
-#include "support/classical_splines.h"
 #include "support/expect_error.h"
-#include "support/spline_models.h"
 #include "support/tolerance.h"
+#include "truth/classical_splines.h"
 
 namespace sublimit::testing {
 namespace {

@@ -8,10 +8,10 @@
 #include <limits>
 #include <numbers>
 
+#include "lib/patches/joins/power_patch.h"
 #include "support/expect_error.h"
-#include "support/fraction.h"
-#include "support/power_patch.h"
 #include "support/tolerance.h"
+#include "truth/fraction.h"
 
 namespace sublimit::testing {
 namespace {

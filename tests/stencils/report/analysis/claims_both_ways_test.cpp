@@ -3,13 +3,13 @@
 // but for what becomes of the claims; and no false one is proved.
 #include <gtest/gtest.h>
 
+#include "meshes/meshes.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/meshes.h"
 
 namespace sublimit {
 namespace {

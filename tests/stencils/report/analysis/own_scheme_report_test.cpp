@@ -2,14 +2,14 @@
 // Reports of schemes that the registry does not have, and of wrong ones: disproved, and for the right reason.
 #include <gtest/gtest.h>
 
+#include "laws/misreadings.h"
 #include "stencils/cli_program.h"
 #include "sublimit/base/error.h"
 #include "sublimit/certificates/regularity/sweep.h"
-#include "sublimit/stencils/files/numbers.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/analysis/verify_report.h"
+#include "sublimit/stencils/json/numbers.h"
 #include "support/expect_error.h"
-#include "support/misreadings.h"
 
 namespace sublimit::testing {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "laws/stationary.h"
 #include "sublimit/base/error.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
-#include "support/stationary.h"
 
 namespace sublimit {
 namespace {

@@ -11,7 +11,7 @@
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
-#include "sublimit/stencils/files/numbers.h"
+#include "sublimit/stencils/json/numbers.h"
 
 namespace sublimit::testing {
 namespace {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "meshes/meshes.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/asset/curvature_statistics.h"
 #include "sublimit/report/asset/surface_places.h"
 #include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
-#include "support/meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

@@ -2,10 +2,10 @@
 // Reports of OpenSubdiv's regression shapes.
 #include <gtest/gtest.h>
 
+#include "meshes/shared_meshes.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/schemes/schemes.h"
-#include "support/shared_meshes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

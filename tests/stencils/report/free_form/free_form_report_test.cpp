@@ -8,9 +8,9 @@
 #include <map>
 #include <numbers>
 
+#include "meshes/free_form_shapes.h"
 #include "sublimit/base/detail/format_number.h"
 #include "support/expect_error.h"
-#include "support/free_form_shapes.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {

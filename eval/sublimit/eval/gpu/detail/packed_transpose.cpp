@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "sublimit/eval/detail/occurrences.h"
+#include "sublimit/eval/evaluate/detail/occurrences.h"
 
 namespace sublimit::gpu {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sublimit/eval/gpu/detail/kernel_arguments.h"
-#include "sublimit/eval/pattern_table.h"
+#include "sublimit/eval/table/pattern_table.h"
 
 namespace sublimit::gpu {
 

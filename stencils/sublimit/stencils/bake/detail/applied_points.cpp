@@ -11,7 +11,7 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/detail/row_writer.h"
-#include "sublimit/eval/detail/point_addresses.h"
+#include "sublimit/eval/table/detail/point_addresses.h"
 #include "sublimit/source/limit_status.h"
 
 namespace sublimit {

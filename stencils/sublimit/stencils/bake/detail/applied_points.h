@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // The results of a table for one frame, as a mesh or as rows of a CSV.
-#include "sublimit/eval/baked_table.h"
+#include "sublimit/eval/table/baked_table.h"
 #include "sublimit/io/write_mesh.h"
 
 namespace sublimit {

@@ -3,7 +3,7 @@
 // Baking tables of meshes: of level k, of the limits of its vertices, of grids or lists of places on the limit.
 #include <limits>
 
-#include "sublimit/eval/baked_table.h"
+#include "sublimit/eval/table/baked_table.h"
 #include "sublimit/patches/patch_set.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/source/address.h"

@@ -9,7 +9,7 @@
 #include "sublimit/primvar/face_varying.h"
 #include "sublimit/scheme/refined_mesh.h"
 #include "sublimit/stencils/bake/detail/lattice_cells.h"
-#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/formats/rule_of_word.h"
 
 namespace sublimit {
 namespace {

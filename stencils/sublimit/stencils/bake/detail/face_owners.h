@@ -3,7 +3,7 @@
 // The owners of points on sides and at corners of faces. Any face with such a point may own it. Balanced owners
 // are faster: kernels work in registers of rows, so every quadrilateral should own about two sides and a
 // corner.
-#include "sublimit/eval/face_lattices.h"
+#include "sublimit/eval/table/face_lattices.h"
 #include "sublimit/mesh/topology.h"
 
 namespace sublimit {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sublimit/eval/face_lattices.h"
+#include "sublimit/eval/table/face_lattices.h"
 #include "sublimit/scheme/refine.h"
 
 namespace sublimit {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/eval/pattern_evaluator.h"
+#include "sublimit/eval/evaluate/pattern_evaluator.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/stencils/bake/editable_table.h"
 

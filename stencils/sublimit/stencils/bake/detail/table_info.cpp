@@ -9,7 +9,7 @@
 
 #include "sublimit/base/version.h"
 #include "sublimit/stencils/bake/detail/bake_channels.h"
-#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/formats/rule_of_word.h"
 #include "sublimit/stencils/patterns/point_status.h"
 
 namespace sublimit {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/stencils/bake/detail/table_mesh.h"
 
-#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/formats/rule_of_word.h"
 
 namespace sublimit {
 

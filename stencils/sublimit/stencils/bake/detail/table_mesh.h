@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // The mesh of a table's points, without positions, for writing to a file.
-#include "sublimit/eval/baked_table.h"
+#include "sublimit/eval/table/baked_table.h"
 #include "sublimit/io/write_mesh.h"
 
 namespace sublimit {

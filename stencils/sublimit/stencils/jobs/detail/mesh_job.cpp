@@ -8,7 +8,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/scheme/any_scheme.h"
 #include "sublimit/scheme/detail/prepare.h"
-#include "sublimit/stencils/files/rule_of_word.h"
+#include "sublimit/stencils/formats/rule_of_word.h"
 
 namespace sublimit {
 namespace {
