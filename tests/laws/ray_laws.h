@@ -17,8 +17,8 @@
 
 #include "laws/full_sweep.h"
 #include "sublimit/base/error.h"
-#include "sublimit/integrals/detail/closed_surface.h"
 #include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/parts/closed_surface.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/intersect.h"

@@ -16,14 +16,14 @@
 #include "sublimit/limit/detail/limit_cache.h"
 #include "sublimit/neighborhood/regular_faces.h"
 #include "sublimit/neighborhood/repeated_block.h"
+#include "sublimit/parts/parted_patches.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/patches/detail/bezier_pieces.h"
 #include "sublimit/patches/detail/weighted_source.h"
 #include "sublimit/scheme/detail/level_knots.h"
 #include "sublimit/scheme/detail/mask_table.h"
 #include "sublimit/search/detail/foot_point.h"
 #include "sublimit/search/detail/net_distance.h"
-#include "sublimit/search/detail/searched_patches.h"
-#include "sublimit/search/detail/searched_surface.h"
 #include "sublimit/search/detail/tracer.h"
 #include "sublimit/search/intersect.h"
 #include "sublimit/splits/detail/sheets.h"
@@ -40,9 +40,9 @@ using P = const Points&;
 
 // What users make.
 static_assert(std::is_constructible_v<LimitSurface, LimitMap, Points>);  // which it owns
-static_assert(std::is_constructible_v<SearchedLimit, LimitSurface> && std::is_constructible_v<RayTracer, LimitMap, P>);
-static_assert(keeps_named_only<SearchedPatches, PatchSet, P>);
-static_assert(std::is_constructible_v<RayTracer, SearchedPatches>);  // which it does not keep
+static_assert(std::is_constructible_v<PartedLimit, LimitSurface> && std::is_constructible_v<RayTracer, LimitMap, P>);
+static_assert(keeps_named_only<PartedPatches, PatchSet, P>);
+static_assert(std::is_constructible_v<RayTracer, PartedPatches>);  // which it does not keep
 static_assert(keeps_named_only<WeightedSource, PatchSet, Eigen::VectorXd>);
 static_assert(keeps_named_only<BezierPieces, PatchSet, P>);
 static_assert(keeps_named_only<FitTerms, FitProblem>);
@@ -92,7 +92,7 @@ static_assert(binds_named_only<WeightedSource>);
 static_assert(!std::is_move_constructible_v<PieceLink>);
 static_assert(!std::is_move_constructible_v<LimitCache>);
 static_assert(!std::is_copy_constructible_v<MaskTable<double>> && std::is_move_constructible_v<MaskTable<double>>);
-static_assert(!std::is_move_constructible_v<SearchedLimit> && !std::is_move_constructible_v<SearchedPatches>);
+static_assert(!std::is_move_constructible_v<PartedLimit> && !std::is_move_constructible_v<PartedPatches>);
 
 TEST(KeepsReferences, SurfacesMoveWithWhatTheyReferTo) {
   static_assert(std::is_nothrow_move_constructible_v<LimitMap> && std::is_nothrow_move_assignable_v<LimitMap>);

@@ -226,7 +226,7 @@ class Headers:
         """Names of the arguments, with the fields of options instead of these."""
         words = set()
         for arguments in self.functions[f"{function}::{function}" if function in self.fields else function]:
-            if re.search(r"\b(LimitMap|SearchedSurface|LinearSource|LimitSamples)\b", arguments):
+            if re.search(r"\b(LimitMap|PartedSurface|LinearSource|LimitSamples)\b", arguments):
                 continue  # of lower floors
             for argument in filter(None, (part.partition("=")[0].strip() for part in arguments.split(","))):
                 options = re.search(r"\b(\w+Options)\b", argument)

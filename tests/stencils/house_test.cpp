@@ -28,9 +28,9 @@ struct Floor {
 };
 const Floor floors[] = {
     {"lib/sublimit",
-     {"core",    "mesh",    "splits",    "io",           "scheme",    "source",      "neighborhood", "limit",
-      "surface", "nets",    "integrals", "tessellation", "geometric", "curves",      "patches",      "search",
-      "cad",     "schemes", "primvar",   "fit",          "implicit",  "certificates"},
+     {"core",    "mesh", "splits",    "io",      "scheme",  "source",   "neighborhood", "limit",
+      "surface", "nets", "geometric", "curves",  "patches", "parts",    "integrals",    "tessellation",
+      "search",  "cad",  "schemes",   "primvar", "fit",     "implicit", "certificates"},
      {"subdivide.h"},
      "schemes"},
     {"stencils/sublimit",
@@ -133,7 +133,7 @@ TEST(House, FoldersKnowThoseBelowThem) {
 /// Rooms of which nothing is installed: what is there is for us, as what is in a folder `detail`.
 bool is_own(const std::string& path) {
   static const std::regex own(
-      "/detail/|^lib/sublimit/(cad|curves/schemes|geometric|implicit/polygonize|neighborhood|nets|patches/(constructions|joins)"
+      "/detail/|^lib/sublimit/(cad|curves/schemes|geometric|implicit/polygonize|neighborhood|nets|parts|patches/(constructions|joins)"
       "|primvar|schemes|certificates/(spectra|c1|witness|regularity))/|^eval/sublimit/eval/kernels/"
       "|^stencils/sublimit/(stencils/(files|fit_jobs|formats|gallery|json|patterns|picture|shards)"
       "|report/(analysis|asset|free_form|page)|distributed)/");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/cad/step_file.h"
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <vector>
 
@@ -16,14 +14,9 @@
 namespace sublimit {
 namespace {
 
-/// @param columns  x 3, or x 4 and homogeneous: points at infinity are left out
 double diagonal_of(const Points& columns) {
-  Eigen::AlignedBox3d box;
-  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
-    const double w = columns.cols() == 4 ? columns(i, 3) : 1;
-    if (w != 0) box.extend(Eigen::Vector3d(columns.row(i).head(3) / w));
-  }
-  return box.isEmpty() ? 0 : box.diagonal().norm();
+  const Points points = points_in_space(columns);
+  return points.rows() > 0 ? (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm() : 0;
 }
 
 /// Errors about the scheme name it.

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
+#include "sublimit/patches/detail/weighted_source.h"
 
 namespace sublimit {
 namespace {
@@ -44,7 +47,7 @@ void check(const Cloud& cloud, const CloudFitOptions& o) {
 /// The rows of every coordinate of every vertex: columns by vertex, then coordinate.
 class Iteration {
  public:
-  Iteration(const LimitMap& surface, const Cloud& cloud, const CloudFitOptions& options)
+  Iteration(const LinearSource& surface, const Cloud& cloud, const CloudFitOptions& options)
       : surface_(surface), cloud_(cloud), options_(options) {
     const Eigen::Index count = cloud.points.rows();
     weights_ = Eigen::VectorXd::Ones(count);
@@ -109,16 +112,18 @@ class Iteration {
     add_tangent_rows(problem, A, cloud_.points, normals, weights_, tangential);
   }
 
-  const LimitMap& surface_;
+  const LinearSource& surface_;
   const Cloud& cloud_;
   const CloudFitOptions& options_;
   Eigen::VectorXd weights_;  // of the mean
   SparseMatrix H_;
 };
 
-}  // namespace
+/// Finds the nearest points of the surface with these control points.
+using Nearest = std::function<ClosestPoints(const Points& control, const ClosestPointOptions& options)>;
 
-CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& guess, const CloudFitOptions& options) {
+CloudFit fit_cloud(const LinearSource& surface, const Nearest& nearest, const Cloud& cloud, const Points& guess,
+                   const CloudFitOptions& options) {
   check(cloud, options);
   if (guess.cols() != 3)
     throw InvalidParameter("the first guess has " + std::to_string(guess.cols()) + " columns, not 3");
@@ -126,7 +131,7 @@ CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& gu
   // Pins are set, and everything else is checked, by a fit to nothing.
   fit.points = fit_places(surface, {{}, Points(0, 3)}, guess, {.pins = options.pins}).points;
   const Iteration iteration(surface, cloud, options);
-  fit.foot_points = closest(surface, fit.points, cloud.points, {.prove = false});
+  fit.foot_points = nearest(fit.points, {.prove = false});
   const double size = (cloud.points.colwise().maxCoeff() - cloud.points.colwise().minCoeff()).norm();
   const auto factor = [&](size_t k) {
     return options.schedule.empty() ? 1 : options.schedule[std::min(k, options.schedule.size() - 1)];
@@ -143,7 +148,7 @@ CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& gu
     const bool at_end = size_t(k) + 1 >= options.schedule.size();
     for (;;) {
       Points x = iteration.step(fit.foot_points, fit.points, f, tangential);
-      ClosestPoints foot_points = closest(surface, x, cloud.points, {.guess = fit.foot_points.places, .prove = false});
+      ClosestPoints foot_points = nearest(x, {.guess = fit.foot_points.places, .prove = false});
       const CloudIteration now = iteration.measure(foot_points, x, f);
       if (now.energy <= before) {
         fit.points = std::move(x);
@@ -161,6 +166,36 @@ CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& gu
       tangential = std::min(1.0, 10 * tangential);
     }
   }
+  return fit;
+}
+
+}  // namespace
+
+CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& guess, const CloudFitOptions& options) {
+  return fit_cloud(
+      surface,
+      [&](const Points& control, const ClosestPointOptions& search) {
+        return closest(surface, control, cloud.points, search);
+      },
+      cloud, guess, options);
+}
+
+CloudFit fit_cloud(const Patches& guess, const Cloud& cloud, const CloudFitOptions& options) {
+  CloudFitOptions own = options;
+  own.fairness.quadrature = std::max(own.fairness.quadrature, 8);  // of degrees above 3 too
+  const auto near = [&](Points columns, const ClosestPointOptions& search) {
+    return closest(guess.with(std::move(columns)), cloud.points, search);
+  };
+  if (!guess.rational()) return fit_cloud(guess.set(), near, cloud, guess.points(), own);
+  const Eigen::VectorXd weights = guess.points().col(3);
+  const WeightedSource surface(guess.set(), weights);
+  CloudFit fit = fit_cloud(
+      surface,
+      [&](const Points& control, const ClosestPointOptions& search) {
+        return near(homogeneous(control, weights), search);
+      },
+      cloud, guess.points().leftCols(3).array().colwise() / weights.array(), own);
+  fit.points = homogeneous(fit.points, weights);
   return fit;
 }
 

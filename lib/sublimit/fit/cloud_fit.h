@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Fits a limit surface to a cloud of points: projects every point onto the surface, fits the control points to where
-// the projections should be, and repeats this.
+// Fits a limit surface, or classical patches, to a cloud of points: projects every point onto the surface, fits the
+// control points to where the projections should be, and repeats this.
 //
 //   const LimitSurface start(read_mesh("box.obj"), "catmull-clark");
 //   const Cloud cloud = cloud_of_vertices(read_mesh("scan.ply"));
@@ -23,6 +23,7 @@
 
 #include "sublimit/fit/cloud.h"
 #include "sublimit/fit/scattered_fit.h"
+#include "sublimit/patches/patches.h"
 #include "sublimit/search/closest_point.h"
 
 namespace sublimit {
@@ -52,7 +53,7 @@ struct CloudFitOptions {
 
 /// Result of `fit_cloud`.
 struct [[nodiscard]] CloudFit {
-  Points points;                           ///< control points, #V x 3
+  Points points;                           ///< control points, as those of the first guess
   std::vector<CloudIteration> iterations;  ///< statistics of the first guess, then of each iteration
   ClosestPoints foot_points;               ///< the points of the result nearest to those of the cloud
   bool converged = false;                  ///< true if E became stationary to the tolerance
@@ -66,5 +67,9 @@ struct [[nodiscard]] CloudFit {
 /// @throws InvalidMesh       no face that is not a hole
 CloudFit fit_cloud(const LimitMap& surface, const Cloud& cloud, const Points& guess,
                    const CloudFitOptions& options = {});
+/// Returns control points of patches, from those that they have. Weights of rational patches are kept.
+/// @return  `points` as those of the patches: #points x 3, or x 4 if they are homogeneous
+/// @throws InvalidParameter  as for limits; a control point of weight 0
+CloudFit fit_cloud(const Patches& guess, const Cloud& cloud, const CloudFitOptions& options = {});
 
 }  // namespace sublimit

@@ -12,16 +12,16 @@
 #include <utility>
 #include <vector>
 
-#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/found_once.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/integrals/detail/closed_surface.h"
 #include "sublimit/integrals/detail/quadrature.h"
 #include "sublimit/integrals/detail/refined_sums.h"
+#include "sublimit/integrals/detail/unit_box.h"
 #include "sublimit/nets/piece_hull.h"
+#include "sublimit/parts/closed_surface.h"
 #include "sublimit/surface/detail/limit_patches.h"
 
 namespace sublimit {
@@ -236,46 +236,6 @@ class Integrator {
   std::int64_t most_squares_;
 };
 
-/// By a power of two, so that squares and fifth powers of coordinates neither overflow nor vanish.
-double power_of_two(double size) { return size > 0 ? std::exp2(std::ilogb(size)) : 1; }
-
-/// What a number or a matrix of numbers is where lengths are so much larger. One by one, so that 0 stays 0.
-template <class T>
-T scaled(T value, double scale, int power) {
-  for (int k = 0; k < power; ++k) value *= scale;
-  return value;
-}
-
-/// @throws InvalidMesh  some of them are larger than numbers are, naming the control point that is farthest out
-void check_range(const LimitIntegrals& found, const Points& points) {
-  const char* what = !std::isfinite(found.area) || !std::isfinite(found.area_error) ? "area" : "";
-  if (const std::optional<SolidIntegrals>& solid = found.solid) {
-    if (!std::isfinite(solid->inertia_error) || !solid->inertia.allFinite()) what = "inertia";
-    if (!std::isfinite(solid->volume_error) || !std::isfinite(solid->volume)) what = "volume";
-  }
-  if (*what == 0) return;
-  Eigen::Index row = 0, column = 0;
-  points.cwiseAbs().maxCoeff(&row, &column);
-  throw InvalidMesh("control point " + std::to_string(row) + " has the coordinate " +
-                    format_number(points(row, column)) + ", and the " + what +
-                    " of the limit is larger than numbers are (1.8e308); give points in another unit of length");
-}
-
-SolidIntegrals solid_of(const EstimatedSums& sums) {
-  const SurfaceSums &value = sums.value, &error = sums.error;
-  SolidIntegrals solid;
-  solid.volume = value.volume;
-  solid.centroid = value.first / value.volume;
-  const Eigen::Matrix3d central = value.second - value.volume * solid.centroid * solid.centroid.transpose();
-  solid.inertia = central.trace() * Eigen::Matrix3d::Identity() - central;
-  const double first = error.first.norm(), distance = solid.centroid.norm();
-  solid.volume_error = error.volume;
-  solid.centroid_error = (first + distance * error.volume) / std::abs(value.volume);
-  // Of `central`; the trace has at most sqrt(3) times its norm, the identity a norm of sqrt(3).
-  solid.inertia_error = 4 * (error.second.norm() + 2 * distance * first + distance * distance * error.volume);
-  return solid;
-}
-
 /// Of all pieces; nothing if some are not made of polynomials.
 /// @param x  points of the level that has the pieces
 std::optional<EstimatedSums> polynomial_sums(const LimitMap::Parts& parts, const Points& x) {
@@ -322,38 +282,9 @@ LimitIntegrals limit_integrals(const LimitMap& surface, const Points& points) {
   if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
     throw InvalidParameter("integrals need a point of three coordinates for each vertex");
   check_finite_control(points);
-  LimitIntegrals result;
-  if (points.rows() == 0) {
-    result.why_no_solid = "there are no faces";
-    return result;
-  }
-  const Eigen::RowVector3d middle = points.colwise().minCoeff() / 2 + points.colwise().maxCoeff() / 2;
-  const double scale = power_of_two((points.rowwise() - middle).cwiseAbs().maxCoeff());
-  const Points centred = (points.rowwise() - middle) / scale;
-  const EstimatedSums sums = sums_over(surface, centred);
-  const SurfaceSums& value = sums.value;
-  result.area = scaled(value.area, scale, 2);
-  result.area_error = scaled(sums.error.area, scale, 2);
-  if (value.area > 0) {
-    const Eigen::Vector3d centroid = value.of_area / value.area;
-    result.centroid = middle.transpose() + scale * centroid;
-    result.centroid_error = scale * (sums.error.of_area.norm() + centroid.norm() * sums.error.area) / value.area;
-  }
-  result.why_no_solid = why_not_closed(surface);
-  if (result.why_no_solid.empty() && std::abs(value.volume) <= std::max(1e-13 * value.area, sums.error.volume))
-    result.why_no_solid = "the surface encloses no volume";
-  if (result.why_no_solid.empty()) {
-    SolidIntegrals solid = solid_of(sums);
-    solid.volume = scaled(solid.volume, scale, 3);
-    solid.volume_error = scaled(solid.volume_error, scale, 3);
-    solid.centroid = middle.transpose() + scale * solid.centroid;
-    solid.centroid_error *= scale;
-    solid.inertia = scaled(solid.inertia, scale, 5);
-    solid.inertia_error = scaled(solid.inertia_error, scale, 5);
-    result.solid = solid;
-  }
-  check_range(result, points);
-  return result;
+  if (points.rows() == 0) return no_faces();
+  const UnitBox box(points);
+  return box.integrals(sums_over(surface, box.to_unit(points)), why_not_closed(surface), points);
 }
 
 }  // namespace sublimit

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Integrals over a limit surface: its area, and, if it is closed, volume, centre and inertia of the solid inside.
+// Integrals over limit surfaces and patches: the area, and, if they are closed, volume, centre and inertia of the solid
+// inside.
 //
 //   const LimitIntegrals integrals = limit_integrals(surface.map(), surface.points());
 //   std::cout << "area " << integrals.area << "\n";
@@ -20,6 +21,7 @@
 #include <optional>
 #include <string>
 
+#include "sublimit/patches/patches.h"
 #include "sublimit/surface/limit_map.h"
 
 namespace sublimit {
@@ -64,5 +66,13 @@ struct [[nodiscard]] LimitIntegrals {
 ///                              level before (sqrt3, dual schemes)
 /// @throws ResourceError        two levels of the refined mesh take more memory than there is
 LimitIntegrals limit_integrals(const LimitMap& surface, const Points& points);
+
+/// Returns integrals over all faces of patches, by Gauss rules on cells that are quartered until their sums change by
+/// less than 2e-13 of the square of the extent of all control points. Volume and moments of polynomial patches are
+/// exact but for rounding. Patches are closed if each of their sides is another one's too, or a single point.
+/// @return  the same bits for any number of threads
+/// @throws InvalidMesh          control points that are not finite, or so large that an integral is not
+/// @throws UnsupportedTopology  a face with a pole, where w = 0: names it
+LimitIntegrals limit_integrals(const Patches& patches);
 
 }  // namespace sublimit

@@ -28,6 +28,13 @@ struct CellCorner {
 inline constexpr std::int32_t cell_steps = 1 << 24;
 inline std::array<double, 2> CellCorner::uv() const { return {double(i) / cell_steps, double(j) / cell_steps}; }
 
+/// Returns true if a corner is on a side of its address; sides are counter-clockwise from (0, 0).
+inline bool is_on_side(const CellCorner& c, size_t side, bool triangle) {
+  if (side == 0) return c.j == 0;
+  if (side == 1) return (triangle ? c.i + c.j : c.i) == cell_steps;
+  return side == 2 && !triangle ? c.j == cell_steps : c.i == 0;
+}
+
 /// Corners of a cell, counter-clockwise from its own (0, 0). The last one of a triangle is unused.
 using CellCorners = std::array<CellCorner, 4>;
 /// Corners of the unit square and triangle.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Numbers for places of cells, such that places of the same point of the surface have the same number. Decided
-// by connectivity (`SharedPlaces`), never by position.
+// Numbers for places of cells, such that places of the same point of the surface have the same number.
+#include <functional>
 #include <unordered_map>
+#include <utility>
 
 #include "sublimit/nets/piece_parts.h"
 #include "sublimit/surface/detail/limit_map_parts.h"
@@ -13,9 +14,14 @@ namespace sublimit {
 /// Assigns consecutive numbers to places of cells.
 class PlaceNumbers {
  public:
+  /// Returns a number that all faces with a place have for it, or SharedPlaces::not_shared.
+  using Shared = std::function<std::int64_t(Index address, const CellCorner& corner)>;
+  explicit PlaceNumbers(Shared shared) : shared_(std::move(shared)) {}
+  /// Numbers places of a limit surface: decided by connectivity, never by position.
   /// @param parts  must outlive this
   explicit PlaceNumbers(const LimitMap::Parts& parts)
-      : shared_(parts.level.topology(), parts.addresses, cell_steps, parts.scheme.is_dual()) {}
+      : shared_([places = SharedPlaces(parts.level.topology(), parts.addresses, cell_steps, parts.scheme.is_dual())](
+                    Index address, const CellCorner& c) { return places.number(address, c.i, c.j); }) {}
   explicit PlaceNumbers(const LimitMap::Parts&&) = delete;
 
   /// Returns the number of a corner, a new one if it has none.
@@ -44,12 +50,11 @@ class PlaceNumbers {
   };
   Index add(const Key& key) { return numbers_.try_emplace(key, size()).first->second; }
   Key key(Index address, const CellCorner& c) const {
-    if (const std::int64_t number = shared_.number(address, c.i, c.j); number != SharedPlaces::not_shared)
-      return {-1, number};
+    if (const std::int64_t number = shared_(address, c); number != SharedPlaces::not_shared) return {-1, number};
     return {address, std::int64_t{c.i} << 32 | c.j};
   }
 
-  SharedPlaces shared_;
+  Shared shared_;
   std::unordered_map<Key, Index, Hash> numbers_;
 };
 

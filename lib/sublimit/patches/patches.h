@@ -21,6 +21,8 @@ struct ClosestPointOptions;
 struct Ray;
 struct RayHits;
 struct RayOptions;
+struct Tessellation;
+struct TessellationOptions;
 
 /// Patches with their control points, which it owns. Faces are spans of knots, of one patch after the other; places
 /// have u and v in [0, 1] from one knot to the next, and derivatives are by the patch's own parameters. It never
@@ -78,6 +80,8 @@ class Patches : public BoundSource {
   /// Returns where rays meet the patches; include search/intersect.h, whose `intersect` it calls.
   RayHits intersect(const std::vector<Ray>& rays) const;
   RayHits intersect(const std::vector<Ray>& rays, const RayOptions& options) const;
+  /// Returns triangles; include tessellation/tessellate.h, whose `tessellate` it calls.
+  Tessellation tessellate(const TessellationOptions& options) const;
 
  private:
   struct Bound;

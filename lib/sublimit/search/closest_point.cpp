@@ -12,12 +12,12 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/nets/limit_cells.h"
+#include "sublimit/parts/parted_patches.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/patches/patches.h"
 #include "sublimit/search/detail/box_tree.h"
 #include "sublimit/search/detail/distance_bound.h"
 #include "sublimit/search/detail/foot_point.h"
-#include "sublimit/search/detail/searched_patches.h"
-#include "sublimit/search/detail/searched_surface.h"
 #include "sublimit/search/detail/winding.h"
 
 namespace sublimit {
@@ -159,7 +159,7 @@ struct Proof {
   }
 };
 
-void check(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& options) {
+void check(const PartedSurface& surface, const Points& queries, const ClosestPointOptions& options) {
   const std::span<const Place> guess = options.guess;
   if (options.nearest < 1)
     throw InvalidParameter(std::to_string(options.nearest) + " nearest faces were asked for; 1 or more are right");
@@ -182,7 +182,7 @@ void check(const SearchedSurface& surface, const Points& queries, const ClosestP
 }  // namespace
 
 ClosestPoints closest(const LimitSurface& surface, const Points& queries, const ClosestPointOptions& options) {
-  return closest(SearchedLimit(surface), queries, options);
+  return closest(PartedLimit(surface), queries, options);
 }
 ClosestPoints LimitSurface::closest(const Points& queries, const ClosestPointOptions& options) const {
   return sublimit::closest(*this, queries, options);
@@ -190,7 +190,7 @@ ClosestPoints LimitSurface::closest(const Points& queries, const ClosestPointOpt
 ClosestPoints LimitSurface::closest(const Points& queries) const { return sublimit::closest(*this, queries); }
 
 ClosestPoints closest(const Patches& patches, const Points& queries, const ClosestPointOptions& options) {
-  return closest(SearchedPatches(patches.set(), patches.points()), queries, options);
+  return closest(PartedPatches(patches.set(), patches.points()), queries, options);
 }
 ClosestPoints Patches::closest(const Points& queries, const ClosestPointOptions& options) const {
   return sublimit::closest(*this, queries, options);
@@ -199,10 +199,10 @@ ClosestPoints Patches::closest(const Points& queries) const { return sublimit::c
 
 ClosestPoints closest(const LimitMap& surface, const Points& control, const Points& queries,
                       const ClosestPointOptions& options) {
-  return closest(SearchedLimit(surface, control), queries, options);
+  return closest(PartedLimit(surface, control), queries, options);
 }
 
-ClosestPoints closest(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& options) {
+ClosestPoints closest(const PartedSurface& surface, const Points& queries, const ClosestPointOptions& options) {
   check(surface, queries, options);
   const std::vector<LimitCell> cells = surface.cells();
   if (cells.empty()) throw InvalidMesh("there is no surface to project on: no faces, or only holes");

@@ -30,7 +30,7 @@
 namespace sublimit {
 
 class Patches;
-class SearchedSurface;
+class PartedSurface;
 
 /// Nearest points, in rows. Plain data.
 struct [[nodiscard]] ClosestPoints {
@@ -67,20 +67,20 @@ struct ClosestPointOptions {
 ///                              guesses on no face; `nearest` below 1, a radius below 0
 /// @throws InvalidMesh          no face that is not a hole
 /// @throws UnsupportedTopology  signed distances from a surface that is not closed: says where
-ClosestPoints closest(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& options = {});
+ClosestPoints closest(const PartedSurface& surface, const Points& queries, const ClosestPointOptions& options = {});
 /// Returns nearest points of a limit surface.
 /// @param points  the queries, #queries x 3
-/// @throws as for `SearchedSurface`
+/// @throws as for `PartedSurface`
 ClosestPoints closest(const LimitSurface& surface, const Points& points, const ClosestPointOptions& options = {});
 /// Returns nearest points of classical patches.
 /// @param points  the queries, #queries x 3
-/// @throws as for `SearchedSurface`
+/// @throws as for `PartedSurface`
 ClosestPoints closest(const Patches& patches, const Points& points, const ClosestPointOptions& options = {});
 /// Returns nearest points of a limit map with given control points.
 /// @param control  control points of the map's level, #V x 3
 /// @param queries  #queries x 3
 /// @throws InvalidParameter  control points that do not fit
-/// @throws as for `SearchedSurface`
+/// @throws as for `PartedSurface`
 ClosestPoints closest(const LimitMap& surface, const Points& control, const Points& queries,
                       const ClosestPointOptions& options = {});
 

@@ -13,10 +13,10 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/finite_points.h"
+#include "sublimit/parts/parted_patches.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/patches/patches.h"
 #include "sublimit/search/closest_point.h"
-#include "sublimit/search/detail/searched_patches.h"
-#include "sublimit/search/detail/searched_surface.h"
 #include "sublimit/search/detail/surface_parts.h"
 #include "sublimit/search/detail/tracer.h"
 
@@ -26,7 +26,7 @@ namespace {
 /// Points of the surface at the places of hits. Where corners of parts are not known (next to borders of dual schemes)
 /// or have too few digits (at extraordinary vertices) these are not the hits: there the places are those nearest to
 /// them.
-void place_on_rays(const SearchedSurface& surface, const std::vector<Ray>& rays, const SurfaceParts& parts,
+void place_on_rays(const PartedSurface& surface, const std::vector<Ray>& rays, const SurfaceParts& parts,
                    RayHits& hits) {
   LimitSamples samples;
   surface.samples().evaluate(hits.places, 1, true, samples);
@@ -79,7 +79,7 @@ void check(const RayOptions& options) {
                            " parts; 1 or more is right");
 }
 
-void check_has_parts(const SearchedSurface& surface) {
+void check_has_parts(const PartedSurface& surface) {
   if (const std::string which = surface.without_parts(); !which.empty())
     throw UnsupportedTopology("rays need polynomial or rational surfaces: " + which);
 }
@@ -103,7 +103,7 @@ const char* RayHits::word(std::int64_t hit) const {
 }
 
 RayHits intersect(const LimitSurface& surface, const std::vector<Ray>& rays, const RayOptions& options) {
-  return intersect(SearchedLimit(surface), rays, options);
+  return intersect(PartedLimit(surface), rays, options);
 }
 RayHits LimitSurface::intersect(const std::vector<Ray>& rays, const RayOptions& options) const {
   return sublimit::intersect(*this, rays, options);
@@ -111,7 +111,7 @@ RayHits LimitSurface::intersect(const std::vector<Ray>& rays, const RayOptions& 
 RayHits LimitSurface::intersect(const std::vector<Ray>& rays) const { return sublimit::intersect(*this, rays); }
 
 RayHits intersect(const Patches& patches, const std::vector<Ray>& rays, const RayOptions& options) {
-  return intersect(SearchedPatches(patches.set(), patches.points()), rays, options);
+  return intersect(PartedPatches(patches.set(), patches.points()), rays, options);
 }
 RayHits Patches::intersect(const std::vector<Ray>& rays, const RayOptions& options) const {
   return sublimit::intersect(*this, rays, options);
@@ -120,10 +120,10 @@ RayHits Patches::intersect(const std::vector<Ray>& rays) const { return sublimit
 
 RayHits intersect(const LimitMap& surface, const Points& points, const std::vector<Ray>& rays,
                   const RayOptions& options) {
-  return intersect(SearchedLimit(surface, points), rays, options);
+  return intersect(PartedLimit(surface, points), rays, options);
 }
 
-RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options) {
+RayHits intersect(const PartedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options) {
   check(rays);
   check(options);
   check_has_parts(surface);
@@ -162,11 +162,11 @@ struct RayTracer::Prepared {
   std::optional<LimitMap> map = {};  // whose types the parts refer to
 };
 
-RayTracer::RayTracer(const LimitSurface& surface) : RayTracer(SearchedLimit(surface)) {
+RayTracer::RayTracer(const LimitSurface& surface) : RayTracer(PartedLimit(surface)) {
   prepared_->map = surface.map();
 }
 
-RayTracer::RayTracer(const SearchedSurface& surface) {
+RayTracer::RayTracer(const PartedSurface& surface) {
   check_has_parts(surface);
   prepared_.reset(new Prepared{.parts = SurfaceParts(surface, PartBoxes::for_rays),
                                .first = std::vector<std::int64_t>(size_t(surface.faces().size) + 1)});

@@ -30,7 +30,7 @@
 namespace sublimit {
 
 class Patches;
-class SearchedSurface;
+class PartedSurface;
 
 /// A ray, or a segment of one: the points origin + t direction for tmin <= t <= tmax. The direction need not be unit.
 struct Ray {
@@ -80,18 +80,18 @@ struct RayOptions {
 /// polynomials hulls are estimates, and hits outside them may be missed.
 /// @throws InvalidParameter     a ray that is not finite, has no direction, or ends before it begins: says which;
 ///                              `most_parts` below 1
-/// @throws UnsupportedTopology  a face that cannot be searched (`SearchedSurface::without_parts`)
-RayHits intersect(const SearchedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options = {});
+/// @throws UnsupportedTopology  a face that cannot be searched (`PartedSurface::without_parts`)
+RayHits intersect(const PartedSurface& surface, const std::vector<Ray>& rays, const RayOptions& options = {});
 /// Returns the hits of rays with a limit surface.
-/// @throws as for `SearchedSurface`
+/// @throws as for `PartedSurface`
 RayHits intersect(const LimitSurface& surface, const std::vector<Ray>& rays, const RayOptions& options = {});
 /// Returns the hits of rays with classical patches.
-/// @throws as for `SearchedSurface`
+/// @throws as for `PartedSurface`
 RayHits intersect(const Patches& patches, const std::vector<Ray>& rays, const RayOptions& options = {});
 /// Returns the hits of rays with a limit map of given control points.
 /// @param points  control points of the map's level, #V x 3
 /// @throws InvalidParameter  points that do not fit
-/// @throws as for `SearchedSurface`
+/// @throws as for `PartedSurface`
 RayHits intersect(const LimitMap& surface, const Points& points, const std::vector<Ray>& rays,
                   const RayOptions& options = {});
 
@@ -107,9 +107,9 @@ struct RayHit {
 class RayTracer {
  public:
   /// Prepares any surface that can be searched.
-  /// @param surface  may be destroyed afterwards; the map and points that a `SearchedLimit` refers to must stay
+  /// @param surface  may be destroyed afterwards; the map and points that a `PartedLimit` refers to must stay
   /// @throws UnsupportedTopology  as `intersect`
-  explicit RayTracer(const SearchedSurface& surface);
+  explicit RayTracer(const PartedSurface& surface);
   /// Prepares a limit surface.
   explicit RayTracer(const LimitSurface& surface);
   /// Prepares a limit map with given control points.

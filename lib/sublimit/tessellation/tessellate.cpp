@@ -3,29 +3,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
+#include "sublimit/parts/parted_patches.h"
+#include "sublimit/parts/shared_sides.h"
 #include "sublimit/surface/detail/limit_patches.h"
 #include "sublimit/tessellation/detail/cell_polygon.h"
 #include "sublimit/tessellation/detail/cell_vertices.h"
+#include "sublimit/tessellation/detail/edge_rates.h"
 #include "sublimit/tessellation/detail/flat_cells.h"
 
 namespace sublimit {
 namespace {
 
 /// Appends the points between two corners of a side, in order: halves, halves of these, and so on. A point inside of a
-/// half is only there where the middle is.
-void add_between(const CellVertices& vertices, Index address, const CellCorner& a, const CellCorner& b,
+/// half is only there where the middle is. A side that is one point has none.
+void add_between(const CellVertices& vertices, Index address, const PolygonCorner& a, const PolygonCorner& b,
                  std::vector<PolygonCorner>& polygon) {
-  if ((a.i + b.i) % 2 != 0 || (a.j + b.j) % 2 != 0) return;
-  const CellCorner middle{(a.i + b.i) / 2, (a.j + b.j) / 2};
-  const Index vertex = vertices.find(address, middle);
-  if (vertex < 0) return;
+  if ((a.at.i + b.at.i) % 2 != 0 || (a.at.j + b.at.j) % 2 != 0) return;
+  const CellCorner at{(a.at.i + b.at.i) / 2, (a.at.j + b.at.j) / 2};
+  const PolygonCorner middle{vertices.find(address, at), at};
+  if (middle.vertex < 0 || middle.vertex == a.vertex || middle.vertex == b.vertex) return;
   add_between(vertices, address, a, middle, polygon);
-  polygon.push_back({vertex, middle});
+  polygon.push_back(middle);
   add_between(vertices, address, middle, b, polygon);
 }
 
@@ -38,33 +43,37 @@ void check(const TessellationOptions& options) {
     throw InvalidParameter("at most " + std::to_string(options.max_triangles) + " triangles; 1 or more is right");
 }
 
-}  // namespace
+/// Evaluates places of the surface.
+using Evaluate = std::function<LimitSamples(std::span<const Place> places, int order)>;
 
-Tessellation tessellate(const LimitMap& surface, const Points& control, const TessellationOptions& options) {
-  check(options);
-  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
-  const size_t corners = parts.addresses.triangles() ? 3 : 4;
-  const std::vector<FlatCell> cells = flat_cells(
-      surface, control,
-      {.chord = options.chord, .angle = options.angle, .max_triangles = options.max_triangles, .rates = options.rates});
+/// The cells of a surface as triangles.
+/// @param vertices  numbers corners of cells
+Tessellation triangles_of(const std::vector<FlatCell>& cells, bool triangles, CellVertices vertices,
+                          const Evaluate& evaluate, const TessellationOptions& options) {
+  const size_t corners = triangles ? 3 : 4;
   Tessellation made;
   made.cells = std::ssize(cells);
-  CellVertices vertices(parts);
   for (const FlatCell& cell : cells) {
     made.bound = std::max(made.bound, cell.bound);
     for (size_t k = 0; k < corners; ++k) vertices.add(cell.address, cell.corners[k]);
   }
   made.places = vertices.places();
-  made.points = surface.evaluate(control, made.places).position;
+  made.points = evaluate(made.places, 0).position;
 
   std::vector<PolygonCorner> polygon;
   for (const FlatCell& cell : cells) {
     polygon.clear();
+    const auto corner = [&](size_t k) {
+      const CellCorner& at = cell.corners[k % corners];
+      return PolygonCorner{vertices.find(cell.address, at), at};
+    };
     for (size_t k = 0; k < corners; ++k) {
-      const CellCorner &a = cell.corners[k], &b = cell.corners[(k + 1) % corners];
-      polygon.push_back({vertices.find(cell.address, a), a});
+      const PolygonCorner a = corner(k), b = corner(k + 1);
+      if (a.vertex == b.vertex) continue;  // at a pole
+      polygon.push_back(a);
       add_between(vertices, cell.address, a, b, polygon);
     }
+    if (polygon.size() < 3) continue;
     triangulate(cell.address, polygon, made);
     if (std::ssize(made.triangles) > options.max_triangles)
       throw ResourceError("more than " + std::to_string(options.max_triangles) +
@@ -75,11 +84,60 @@ Tessellation tessellate(const LimitMap& surface, const Points& control, const Te
   corners_of.reserve(3 * made.triangles.size());
   for (const Tessellation::Triangle& triangle : made.triangles)
     for (const auto& [u, v] : triangle.uv) corners_of.push_back({triangle.face, u, v});
-  made.normals = surface.evaluate(control, corners_of, 1).normal;
+  made.normals = evaluate(corners_of, 1).normal;
+  return made;
+}
+
+FlatCellOptions cell_options(const TessellationOptions& options) {
+  return {.chord = options.chord, .angle = options.angle, .max_triangles = options.max_triangles};
+}
+
+}  // namespace
+
+Tessellation tessellate(const LimitMap& surface, const Points& control, const TessellationOptions& options) {
+  check(options);
+  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
+  FlatCellOptions wanted = cell_options(options);
+  if (!options.rates.empty()) {
+    const Topology& topology = parts.level.topology();
+    check_edge_rates(topology, options.rates);
+    wanted.longest_sides = [&](Index address) {
+      return longest_sides(topology, parts.addresses, options.rates, address);
+    };
+  }
+  return triangles_of(
+      flat_cells(surface, control, wanted), parts.addresses.triangles(), CellVertices(parts),
+      [&](std::span<const Place> places, int order) { return surface.evaluate(control, places, order); }, options);
+}
+
+Tessellation tessellate(const Patches& patches, const TessellationOptions& options) {
+  check(options);
+  if (!options.rates.empty()) throw InvalidParameter("rates are of the edges of a mesh; patches have none");
+  const FlatCellOptions wanted = cell_options(options);
+  check_above_rounding(points_in_space(patches.points()), wanted);
+  const PartedPatches surface(patches.set(), patches.points());
+  if (const std::string why = surface.without_parts(); !why.empty())
+    throw UnsupportedTopology(why + ", so that no distance of triangles from it is proved");
+  int degree = 1;
+  const FindParts find_parts = [&](Index face, PieceParts& cutter, std::vector<PiecePart>& out) {
+    surface.find_parts(face, cutter, out);
+  };
+  for (Index face = 0; face < surface.faces().size; ++face) degree = std::max(degree, surface.degree(face));
+  const std::vector<FlatCell> cells = flat_cells(surface.faces(), find_parts, wanted);
+  const SharedSides sides(surface.samples(), surface.faces(), {.same = options.chord / 1000, .degree = degree});
+  Tessellation made = triangles_of(
+      cells, surface.faces().triangles,
+      CellVertices([&](Index face, const CellCorner& corner) { return sides.number(face, corner); }),
+      [&](std::span<const Place> places, int order) { return patches.evaluate(places, order); }, options);
+  made.bound += sides.gap();
   return made;
 }
 
 Tessellation LimitSurface::tessellate(const TessellationOptions& options) const {
+  return sublimit::tessellate(*this, options);
+}
+
+Tessellation Patches::tessellate(const TessellationOptions& options) const {
   return sublimit::tessellate(*this, options);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Tessellates limit surfaces: triangles within a proved distance of the surface, without cracks.
+// Tessellates surfaces: triangles within a proved distance of a limit surface or of classical patches, without cracks.
 //
 //   const LimitSurface surface(read_mesh("torus.obj"), "catmull-clark");
 //   const Tessellation flat = tessellate(surface, {.chord = 1e-3});
@@ -9,11 +9,13 @@
 //
 // Points are places of the limit, so that the stencils of `places` move the triangles with the control mesh. Where
 // cells of different sizes meet, in a face or across an edge, the larger one takes the smaller ones' points into its
-// sides: there are no T-junctions. Points that faces share are one point, by connectivity, not by rounding.
+// sides: there are no T-junctions. Points that faces share are one point, by connectivity, not by rounding. Patches
+// know nothing of each other: their sides are one where they are the same curve in the same parameter.
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "sublimit/patches/patches.h"
 #include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
@@ -22,10 +24,12 @@ namespace sublimit {
 struct TessellationOptions {
   /// Largest distance between a point of a triangle and the point of the surface with the same parameters, > 0.
   double chord = 0;
-  /// Largest angle between two normals of a cell, in radians; 0: any. It is not enforced around extraordinary vertices.
+  /// Largest angle between two normals of a cell, in radians; 0: any. It is not enforced around extraordinary vertices,
+  /// nor in cells of rational patches that are smaller than the chord: normals may turn as fast as they like at a pole.
   double angle = 0;
   std::int64_t max_triangles = std::int64_t{1} << 24;  ///< limit of the number of triangles
-  /// Least number of segments for each edge of the surface's level, >= 1; empty: as many as the chord needs.
+  /// Least number of segments for each edge of the surface's level, >= 1; empty: as many as the chord needs. Patches
+  /// have none.
   std::vector<Index> rates = {};
   bool normals = false;  ///< compute normals at the corners of triangles
 };
@@ -59,5 +63,14 @@ Tessellation tessellate(const LimitMap& map, const Points& control, const Tessel
 inline Tessellation tessellate(const LimitSurface& surface, const TessellationOptions& options) {
   return tessellate(surface.map(), surface.points(), options);
 }
+
+/// Returns triangles of classical patches. Sides of patches are joined if they are the same curve in the same
+/// parameter, up to a thousandth of the chord, and poles are single points; elsewhere patches stay apart, so that a
+/// side that lies on a part of another one leaves a crack of up to twice the chord.
+/// @throws InvalidParameter     a chord or angle that is negative or below rounding; rates
+/// @throws UnsupportedTopology  a face that is no polynomial and no quotient of polynomials, or one with a denominator
+///                              that vanishes: names it
+/// @throws ResourceError        more triangles than allowed: thrown before most of them are made
+Tessellation tessellate(const Patches& patches, const TessellationOptions& options);
 
 }  // namespace sublimit

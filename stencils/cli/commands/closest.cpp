@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <memory>
 
-#include "support/memory_limit.h"
 #include "commands/searched.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/stencils/files/closest_files.h"
+#include "support/memory_limit.h"
 
 namespace sublimit::cli {
 namespace {
@@ -39,7 +39,7 @@ ClosestPointOptions search_options(const ClosestOptions& options) {
   return search;
 }
 
-ClosestPoints search_of(const SearchedSurface& surface, const Points& queries, const ClosestPointOptions& search,
+ClosestPoints search_of(const PartedSurface& surface, const Points& queries, const ClosestPointOptions& search,
                         Progress& progress) {
   const double rows = double(queries.rows()) * std::min<double>(search.nearest, surface.faces().size);
   constexpr double bytes_a_row = 300;  // of what is found, and of what it is collected in
@@ -58,7 +58,7 @@ int run(const ClosestOptions& options) {
   const Points queries = read_query_points(options.points);
   ClosestPoints found;
   with_searched_surface(source, progress,
-                        [&](const SearchedSurface& surface) { found = search_of(surface, queries, search, progress); });
+                        [&](const PartedSurface& surface) { found = search_of(surface, queries, search, progress); });
   progress.step("writing " + options.output);
   write_closest_points(options.output, found, !options.nearest.empty() || !options.radius.empty());
   progress.step("");

@@ -8,7 +8,7 @@
 #include "commands/searched.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/stencils/files/ray_files.h"
 
 namespace sublimit::cli {
@@ -39,7 +39,7 @@ int run(const IntersectOptions& options) {
   progress.step("reading " + options.rays);
   const std::vector<Ray> rays = read_rays(options.rays);
   RayHits hits;
-  with_searched_surface(source, progress, [&](const SearchedSurface& surface) {
+  with_searched_surface(source, progress, [&](const PartedSurface& surface) {
     progress.step(fmt::format("tracing {} rays", rays.size()));
     hits = intersect(surface, rays, search);
   });

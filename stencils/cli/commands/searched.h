@@ -4,14 +4,14 @@
 // which need no scheme.
 #include <functional>
 
+#include "sublimit/parts/parted_surface.h"
 #include "support/source.h"
-#include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit::cli {
 
 /// Reads the surface and calls search(surface). Errors name the file.
 /// @param source  a mesh or patches
 void with_searched_surface(const Source& source, Progress& progress,
-                           const std::function<void(const SearchedSurface&)>& search);
+                           const std::function<void(const PartedSurface&)>& search);
 
 }  // namespace sublimit::cli

@@ -7,10 +7,10 @@
 
 #include "meshes/hard_meshes.h"
 #include "meshes/meshes.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
 #include "sublimit/search/detail/net_distance.h"
-#include "sublimit/search/detail/searched_surface.h"
 #include "support/tolerance.h"
 
 namespace sublimit {
@@ -36,7 +36,7 @@ TEST(DistanceBound, IsNeverAboveTheDistance) {
     const Scheme<double> scheme = *find_scheme<double>(name);
     for (const Mesh& mesh : hard_meshes(scheme, 3)) {
       const LimitMap surface(scheme, mesh);
-      const DistanceBound bound(SearchedLimit(surface, mesh.positions));
+      const DistanceBound bound(PartedLimit(surface, mesh.positions));
       const Points q = random_points(mesh, 20, 3);
       const Eigen::VectorXd distances = closest(surface, mesh.positions, q, {.prove = false}).distances;
       PieceParts cutter;
@@ -88,7 +88,7 @@ TEST(DistanceBound, FindsWhatIsNearer) {
   const Scheme<double> scheme = *find_scheme<double>("catmull-clark");
   const Mesh mesh = torus(7, 5);
   const LimitMap surface(scheme, mesh);
-  const DistanceBound bound(SearchedLimit(surface, mesh.positions));
+  const DistanceBound bound(PartedLimit(surface, mesh.positions));
   PieceParts cutter;
   const Points q = random_points(mesh, 50, 4);
   const Eigen::VectorXd distances = closest(surface, mesh.positions, q).distances;

@@ -12,9 +12,9 @@
 #include "sublimit/cad/limit_quads.h"
 #include "sublimit/integrals/limit_integrals.h"
 #include "sublimit/nets/limit_cells.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/search/closest_point.h"
-#include "sublimit/search/detail/searched_surface.h"
 #include "sublimit/search/detail/winding.h"
 #include "sublimit/search/intersect.h"
 #include "sublimit/surface/limit_map.h"
@@ -58,7 +58,7 @@ TEST_P(ControlPoints, HaveSquaresWhereDistancesAreProved) {
     refused([&] { bezier_cells(surface_, points, 0.1); });
     refused([&] { closest(surface_, points, query); });
     refused([&] { intersect(surface_, points, rays); });
-    refused([&] { winding_numbers(SearchedLimit(surface_, points), query); });
+    refused([&] { winding_numbers(PartedLimit(surface_, points), query); });
     refused([&] { limit_quads(surface_, points, {.tolerance = 0.1, .progress = {}}); });
   }
 }
@@ -89,7 +89,7 @@ TEST(Queries, AreFinite) {
   for (const double x : {nan, infinity, 1e200}) {
     queries(2, 0) = x;
     expect_error<InvalidParameter>([&] { closest(surface, mesh.positions, queries); }, {"query point 2"});
-    expect_error<InvalidParameter>([&] { winding_numbers(SearchedLimit(surface, mesh.positions), queries); },
+    expect_error<InvalidParameter>([&] { winding_numbers(PartedLimit(surface, mesh.positions), queries); },
                                    {"point to look from 2"});
   }
 }

@@ -10,7 +10,7 @@
 #include <optional>
 #include <span>
 
-#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/search/detail/surface_parts.h"
 
 namespace sublimit {
@@ -25,7 +25,7 @@ struct [[nodiscard]] ProvedDistance {
 class DistanceBound {
  public:
   /// @param surface  needed during construction only; the map or patches that it refers to must outlive this
-  explicit DistanceBound(const SearchedSurface& surface) : parts_(surface) {}
+  explicit DistanceBound(const PartedSurface& surface) : parts_(surface) {}
 
   /// Returns a bound for a point. Threads may call it at the same time.
   /// @param distance  distance of the nearest known point

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sublimit/base/detail/parallel_for.h"
-#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/search/detail/seen_limit.h"
 
 namespace sublimit {
@@ -86,7 +86,7 @@ std::array<SurfacePart, 2> halves_of(const SurfacePart& whole, bool by_u) {
   return {half(false, std::move(lower)), half(true, std::move(upper))};
 }
 
-SurfaceParts::SurfaceParts(const SearchedSurface& surface, PartBoxes use) {
+SurfaceParts::SurfaceParts(const PartedSurface& surface, PartBoxes use) {
   const Index faces = surface.faces().size;
   constexpr std::int64_t faces_a_block = 32;
   std::vector<std::vector<SurfacePart>> blocks(size_t(num_blocks(faces, faces_a_block)));

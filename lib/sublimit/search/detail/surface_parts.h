@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "sublimit/nets/piece_parts.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/search/detail/box_tree.h"
 #include "sublimit/search/detail/piece_limits.h"
-#include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit {
 
@@ -72,7 +72,7 @@ enum class PartBoxes { for_distances, for_rays };
 class SurfaceParts {
  public:
   /// @param surface  needed during construction only; the map or patches that it refers to must outlive this
-  explicit SurfaceParts(const SearchedSurface& surface, PartBoxes boxes = PartBoxes::for_distances);
+  explicit SurfaceParts(const PartedSurface& surface, PartBoxes boxes = PartBoxes::for_distances);
   const std::vector<SurfacePart>& parts() const { return parts_; }
   /// Returns the tree of the parts' boxes; empty if there is no surface.
   const BoxTree& tree() const { return tree_; }

@@ -8,7 +8,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/search/intersect.h"
 
 namespace sublimit {
@@ -36,7 +36,7 @@ std::optional<int> windings(const RayHits& hits, size_t ray, const Eigen::Vector
 
 }  // namespace
 
-std::vector<int> winding_numbers(const SearchedSurface& surface, const Points& queries) {
+std::vector<int> winding_numbers(const PartedSurface& surface, const Points& queries) {
   if (const std::string why = surface.why_not_closed(); !why.empty())
     throw UnsupportedTopology("what is inside is known of closed surfaces alone: " + why);
   check_measurable(queries, "point to look from");

@@ -4,7 +4,7 @@
 // hits (intersect.h misses no hit).
 #include <vector>
 
-#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/parts/parted_surface.h"
 
 namespace sublimit {
 
@@ -14,6 +14,6 @@ namespace sublimit {
 /// @throws InvalidParameter     queries of another shape, or not finite
 /// @throws UnsupportedTopology  a surface that is not closed; says where
 /// @throws AnalysisError        a point from which no ray could be decided
-std::vector<int> winding_numbers(const SearchedSurface& surface, const Points& queries);
+std::vector<int> winding_numbers(const PartedSurface& surface, const Points& queries);
 
 }  // namespace sublimit

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Numbering of the points at corners of cells, with one place for each.
+#include <utility>
 #include <vector>
 
 #include "sublimit/nets/place_numbers.h"
@@ -10,6 +11,7 @@ namespace sublimit {
 /// Assigns consecutive numbers to corners of cells.
 class CellVertices {
  public:
+  explicit CellVertices(PlaceNumbers::Shared shared) : numbers_(std::move(shared)) {}
   /// @param parts  must outlive this
   explicit CellVertices(const LimitMap::Parts& parts) : numbers_(parts) {}
   explicit CellVertices(const LimitMap::Parts&&) = delete;

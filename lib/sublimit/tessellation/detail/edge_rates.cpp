@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/tessellation/detail/edge_rates.h"
 
+#include <bit>
 #include <string>
 
 #include "sublimit/base/error.h"
+#include "sublimit/nets/piece_parts.h"
 
 namespace sublimit {
 
@@ -29,6 +31,19 @@ std::array<SideEdge, 4> side_edges(const Topology& topology, const Addresses& ad
   sides[0] = {SideEdge::Of::first_half, topology.edge(h)};
   sides[3] = {SideEdge::Of::second_half, topology.edge(topology.prev(h))};
   return sides;
+}
+
+std::array<std::int32_t, 4> longest_sides(const Topology& topology, const Addresses& addresses,
+                                          std::span<const Index> rates, Index address) {
+  const std::array<SideEdge, 4> edges = side_edges(topology, addresses, address);
+  std::array<std::int32_t, 4> longest{};
+  for (size_t k = 0; k < edges.size(); ++k) {
+    const auto [of, edge] = edges[k];
+    const Index rate = of == SideEdge::Of::none ? 1 : rates[size_t(index(edge))];
+    const Index segments = of == SideEdge::Of::whole ? rate : (rate + 1) / 2;
+    longest[k] = static_cast<std::int32_t>(cell_steps / std::int64_t(std::bit_ceil(unsigned(segments))));
+  }
+  return longest;
 }
 
 }  // namespace sublimit

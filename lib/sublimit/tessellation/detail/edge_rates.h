@@ -2,6 +2,7 @@
 #pragma once
 // Tessellation rates of the edges of a level (numbers of segments), and the edges of the sides of addresses.
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "sublimit/source/address.h"
@@ -19,5 +20,11 @@ struct SideEdge {
 };
 /// Returns the edges along the sides of an address, counter-clockwise from (0, 0); three for triangles.
 std::array<SideEdge, 4> side_edges(const Topology& topology, const Addresses& addresses, Index address);
+
+/// Returns how long cells may be along each side of an address, so that its edges have the rates at least; cells are
+/// halved again and again.
+/// @return  in steps of CellCorner
+std::array<std::int32_t, 4> longest_sides(const Topology& topology, const Addresses& addresses,
+                                          std::span<const Index> rates, Index address);
 
 }  // namespace sublimit

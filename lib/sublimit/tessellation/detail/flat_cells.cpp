@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,23 +18,62 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/nets/net_derivatives.h"
-#include "sublimit/surface/detail/limit_map_parts.h"
-#include "sublimit/surface/detail/limit_patches.h"
-#include "sublimit/tessellation/detail/edge_rates.h"
 
 namespace sublimit {
 namespace {
 
-double largest(const Points& net) { return net.rows() > 0 ? net.rowwise().norm().maxCoeff() : 0; }
+double largest(const Eigen::Ref<const Points, 0, Eigen::OuterStride<>>& net) {
+  return net.rows() > 0 ? net.rowwise().norm().maxCoeff() : 0;
+}
+
+/// Bounds on the first and second derivatives of a part.
+struct DerivativeBounds {
+  double u = 0, v = 0, uu = 0, uv = 0, vv = 0;
+  double chord() const { return (uu + 2 * uv + vv) / 8; }
+};
+
+/// Those of x = N / w, about a point o near all of x: x_u = (N_u - w_u x) / w, and so on, with |x - o| <= r.
+DerivativeBounds rational_bounds(const PolynomialBasis& basis, Points net) {
+  Eigen::AlignedBox3d box;
+  for (Eigen::Index i = 0; i < net.rows(); ++i) box.extend(net_point(net, i));
+  net.leftCols(3) -= net.col(3) * box.center().transpose();
+  const double w = net.col(3).minCoeff(), r = box.diagonal().norm() / 2;
+  const NetDerivatives x(basis, std::move(net), 2);
+  const auto numerator = [&](int du, int dv) { return largest(x.net(du, dv).leftCols(3)); };
+  const auto weight = [&](int du, int dv) { return largest(x.net(du, dv).rightCols(1)); };
+  const double wu = weight(1, 0), wv = weight(0, 1);
+  DerivativeBounds bounds;
+  bounds.u = (numerator(1, 0) + wu * r) / w;
+  bounds.v = (numerator(0, 1) + wv * r) / w;
+  bounds.uu = (numerator(2, 0) + weight(2, 0) * r + 2 * wu * bounds.u) / w;
+  bounds.uv = (numerator(1, 1) + weight(1, 1) * r + wu * bounds.v + wv * bounds.u) / w;
+  bounds.vv = (numerator(0, 2) + weight(0, 2) * r + 2 * wv * bounds.v) / w;
+  return bounds;
+}
 
 /// Filip's bound on all of a net.
 double chord_bound(const PolynomialBasis& basis, const Points& net) {
+  if (net.cols() == 4) return rational_bounds(basis, net).chord();
   const NetDerivatives x(basis, net, 2);
   return (largest(x.net(2, 0)) + 2 * largest(x.net(1, 1)) + largest(x.net(0, 2))) / 8;
 }
 
+/// Whether normals of a rational part are nowhere farther apart: x_u and x_v leave what they are in the middle by no
+/// more than second derivatives let them.
+bool is_rational_within_angle(const PolynomialBasis& basis, const Points& net, double angle) {
+  const DerivativeBounds bounds = rational_bounds(basis, net);
+  const double middle = basis.total() ? 1. / 3 : 0.5;
+  const NetDerivatives::Jet at = NetDerivatives(basis, net, 1).at(middle, middle);
+  const double w = at.x[3], far = basis.total() ? 2. / 3 : 0.5;
+  const Eigen::Vector3d x = at.x.head<3>() / w, u = (at.u.head<3>() - at.u[3] * x) / w,
+                        v = (at.v.head<3>() - at.v[3] * x) / w;
+  const double du = far * (bounds.uu + bounds.uv), dv = far * (bounds.uv + bounds.vv);
+  return u.norm() * dv + v.norm() * du + du * dv <= std::sin(std::min(angle, std::numbers::pi) / 2) * u.cross(v).norm();
+}
+
 /// Whether normals are nowhere farther apart: they are in the cone of the cross products of derivatives' coefficients.
 bool is_within_angle(const PolynomialBasis& basis, const std::vector<Points>& nets, double angle) {
+  if (nets[0].cols() == 4) return is_rational_within_angle(basis, nets[0], angle);
   std::vector<Eigen::Vector3d> normals;
   for (const Points& net : nets) {
     const NetDerivatives x(basis, net, 1);
@@ -79,103 +118,75 @@ Eigen::Matrix3d affine_map(const std::vector<PiecePart>& parts, const CellCorner
   return A;
 }
 
-/// How long sides of cells may be along the sides of an address.
-class LongestSides {
+class Cutter {
  public:
-  /// @param rates  for each edge, or none
-  LongestSides(const LimitMap::Parts& parts, std::span<const Index> rates) : parts_(parts), rates_(rates) {}
-  void go_to(Index address) {
-    if (rates_.empty()) return;
-    const std::array<SideEdge, 4> edges = side_edges(parts_.level.topology(), parts_.addresses, address);
-    for (size_t k = 0; k < edges.size(); ++k) {
-      const auto [of, edge] = edges[k];
-      const Index rate = of == SideEdge::Of::none ? 1 : rates_[size_t(index(edge))];
-      const Index segments = of == SideEdge::Of::whole ? rate : (rate + 1) / 2;
-      longest_[k] = static_cast<std::int32_t>(cell_steps / std::int64_t(std::bit_ceil(unsigned(segments))));
-    }
+  /// @param count  of triangles that all cells become at least
+  Cutter(const FlatCellOptions& options, bool triangles, std::atomic<std::int64_t>& count, std::vector<FlatCell>& out)
+      : options_(options), triangle_(triangles), count_(count), out_(out) {}
+
+  void cut_face(Index address, const FindParts& find_parts) {
+    address_ = address;
+    if (options_.longest_sides) longest_ = options_.longest_sides(address);
+    std::vector<PiecePart> parts;
+    find_parts(address, parts_, parts);
+    for (PiecePart& part : parts) cut(std::move(part));
   }
+
+ private:
+  void add(FlatCell cell) {
+    if ((count_ += triangle_ ? 1 : 2) > options_.max_triangles)
+      throw ResourceError("more than " + std::to_string(options_.max_triangles) +
+                          " triangles are needed; allow a larger distance or more triangles");
+    out_.push_back(std::move(cell));
+  }
+
   /// A side of the cell is along one of the address, and too long there.
-  bool are_exceeded(const CellCorners& corners) const {
-    if (rates_.empty()) return false;
-    const bool triangle = parts_.addresses.triangles();
-    const size_t n = triangle ? 3 : 4;
+  bool is_too_long(const CellCorners& corners) const {
+    if (!options_.longest_sides) return false;
+    const size_t n = triangle_ ? 3 : 4;
     for (size_t k = 0; k < n; ++k) {
       const CellCorner &a = corners[k], &b = corners[(k + 1) % n];
       const std::int32_t length = std::max(std::abs(a.i - b.i), std::abs(a.j - b.j));
       for (size_t s = 0; s < n; ++s)
-        if (length > longest_[s] && is_on_side(a, s, triangle) && is_on_side(b, s, triangle)) return true;
+        if (length > longest_[s] && is_on_side(a, s, triangle_) && is_on_side(b, s, triangle_)) return true;
     }
     return false;
   }
 
- private:
-  static bool is_on_side(const CellCorner& c, size_t side, bool triangle) {
-    if (side == 0) return c.j == 0;
-    if (side == 1) return (triangle ? c.i + c.j : c.i) == cell_steps;
-    return side == 2 && !triangle ? c.j == cell_steps : c.i == 0;
+  /// Normals have no limit at some places, or turn fast there: cells below the chord have whatever normals they have.
+  bool is_bent(const PiecePart& part) const {
+    if (!(options_.angle > 0) || is_within_angle(*part.basis, part.nets, options_.angle)) return false;
+    if (part.nets[0].cols() != 4) return true;
+    Eigen::AlignedBox3d box;
+    for (Eigen::Index i = 0; i < part.nets[0].rows(); ++i) box.extend(net_point(part.nets[0], i));
+    return box.diagonal().norm() > options_.chord;
   }
 
-  const LimitMap::Parts& parts_;
-  std::span<const Index> rates_;
-  std::array<std::int32_t, 4> longest_{};
-};
+  void cut(PiecePart part) {
+    if (!part.basis) return cut(*part.type, part.points, part.corners);
+    if (options_.whole_polynomials)
+      return add({address_, part.corners, 0,
+                  std::make_unique<WholePolynomial>(WholePolynomial{std::move(part.nets), *part.basis})});
+    double bound = 0;
+    for (const Points& net : part.nets) bound = std::max(bound, chord_bound(*part.basis, net));
+    if ((bound <= options_.chord && !is_bent(part) && !is_too_long(part.corners)) || is_smallest(part.corners))
+      return add({address_, part.corners, bound, nullptr});
+    for (int k = 0; k < 4; ++k) cut(parts_.quarter(part, k));
+  }
 
-class Cutter {
- public:
-  /// @param count  of triangles that all cells become at least
-  Cutter(const FlatCellOptions& options, const LimitMap::Parts& parts, std::atomic<std::int64_t>& count,
-         std::vector<FlatCell>& out)
-      : options_(options),
-        triangles_a_cell_(parts.addresses.triangles() ? 1 : 2),
-        count_(count),
-        out_(out),
-        longest_(parts, options.rates) {}
-
-  void go_to(Index address) { longest_.go_to(address); }
-
-  void cut(Index address, const PieceType& type, const Points& points, const CellCorners& corners) {
-    if (type.polynomial()) {
-      std::vector<PiecePart> whole;
-      parts_.find(type, points, corners, 0, whole);
-      if (options_.whole_polynomials)
-        return add(
-            {address, corners, 0,
-             std::make_unique<WholePolynomial>(WholePolynomial{std::move(whole[0].nets), type.polynomial()->basis})});
-      cut(address, parts_.nets(type.polynomial()->basis), type.polynomial()->basis, whole[0].nets, corners);
-      return;
-    }
+  void cut(const PieceType& type, const Points& points, const CellCorners& corners) {
     const double bound = bound_by_parts(type, points);
-    if ((bound <= options_.chord && !longest_.are_exceeded(corners)) || is_smallest(corners))
-      return add({address, corners, bound, nullptr});
+    if ((bound <= options_.chord && !is_too_long(corners)) || is_smallest(corners))
+      return add({address_, corners, bound, nullptr});
     for (const PieceLink& link : type.children()) {
       const auto child = child_of(corners, link.map, type.kind() == Piece::Kind::triangle);
       if (!child)
         throw UnsupportedTopology(
             "faces next to a border of a dual scheme, or with knot intervals, are not cut into "
             "quarters; `limit -l N` has points of the limit there");
-      cut(address, *link.type, child_points(link, points), *child);
-    }
-  }
-
- private:
-  void add(FlatCell cell) {
-    if ((count_ += triangles_a_cell_) > options_.max_triangles)
-      throw ResourceError("more than " + std::to_string(options_.max_triangles) +
-                          " triangles are needed; allow a larger distance or more triangles");
-    out_.push_back(std::move(cell));
-  }
-
-  void cut(Index address, const BernsteinNets& nets, const PolynomialBasis& basis,
-           const std::vector<Points>& coefficients, const CellCorners& corners) {
-    double bound = 0;
-    for (const Points& net : coefficients) bound = std::max(bound, chord_bound(basis, net));
-    const bool bent = options_.angle > 0 && !is_within_angle(basis, coefficients, options_.angle);
-    if ((bound <= options_.chord && !bent && !longest_.are_exceeded(corners)) || is_smallest(corners))
-      return add({address, corners, bound, nullptr});
-    for (int k = 0; k < 4; ++k) {
-      std::vector<Points> quarter;
-      for (const Points& net : coefficients) quarter.push_back(nets.quarter(k) * net);
-      cut(address, nets, basis, quarter, quarter_of(corners, basis.total(), k));
+      std::vector<PiecePart> parts;
+      parts_.find(*link.type, child_points(link, points), *child, 0, parts);
+      for (PiecePart& part : parts) cut(std::move(part));
     }
   }
 
@@ -223,15 +234,16 @@ class Cutter {
   }
 
   const FlatCellOptions& options_;
-  int triangles_a_cell_;
+  bool triangle_;
   std::atomic<std::int64_t>& count_;
   std::vector<FlatCell>& out_;
-  LongestSides longest_;
+  std::array<std::int32_t, 4> longest_{};
+  Index address_ = 0;
   PieceParts parts_;
 };
 
-/// Cells below rounding are cut for nothing, until there are too many of them.
-/// @throws InvalidParameter  a chord or an angle that is smaller than what points or normals are rounded to
+}  // namespace
+
 void check_above_rounding(const Points& points, const FlatCellOptions& options) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const double rounding = points.size() > 0 ? eps * points.cwiseAbs().maxCoeff() : 0;
@@ -243,37 +255,39 @@ void check_above_rounding(const Points& points, const FlatCellOptions& options) 
                            format_number(eps) + "; a larger one is right, or 0 for any");
 }
 
-}  // namespace
+std::vector<FlatCell> flat_cells(FaceCount faces, const FindParts& find_parts, const FlatCellOptions& options) {
+  constexpr std::int64_t faces_a_block = 32;
+  std::vector<std::vector<FlatCell>> blocks(size_t(num_blocks(faces.size, faces_a_block)));
+  std::atomic<std::int64_t> count = 0;
+  parallel_for_blocks(
+      faces.size,
+      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+        Cutter cutter(options, faces.triangles, count, blocks[size_t(block)]);
+        for (std::int64_t a = begin; a < end; ++a) cutter.cut_face(static_cast<Index>(a), find_parts);
+      },
+      faces_a_block);
+  std::vector<FlatCell> cells;
+  for (std::vector<FlatCell>& block : blocks) std::ranges::move(block, std::back_inserter(cells));
+  return cells;
+}
 
 std::vector<FlatCell> flat_cells(const LimitMap& surface, const Points& points, const FlatCellOptions& options) {
   check_measurable_control(points);
   check_above_rounding(points, options);
-  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
-  if (!options.rates.empty()) check_edge_rates(parts.level.topology(), options.rates);
   // Differences alone count: about one of the points they keep their digits far from the origin.
   const AddressPieces pieces(surface, points.rows() > 0 ? Points(points.rowwise() - points.row(0)) : points);
   if (pieces.has_no_polynomials())
     throw UnsupportedTopology(
         "no piece of this scheme's limits is a polynomial, and only polynomials have bounds on second derivatives; "
         "`limit -l N` has points of the limit");
-  constexpr std::int64_t addresses_a_block = 32;
-  const Index addresses = surface.addresses().size();
-  std::vector<std::vector<FlatCell>> blocks(size_t(num_blocks(addresses, addresses_a_block)));
-  std::atomic<std::int64_t> count = 0;
-  parallel_for_blocks(
-      addresses,
-      [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-        Cutter cutter(options, parts, count, blocks[size_t(block)]);
-        for (std::int64_t a = begin; a < end; ++a) {
-          cutter.go_to(static_cast<Index>(a));
-          pieces.visit(static_cast<Index>(a), [&](const PieceType& type, const Points& local, const CellCorners& c) {
-            cutter.cut(static_cast<Index>(a), type, local, c);
-          });
-        }
+  std::vector<FlatCell> cells = flat_cells(
+      surface.faces(),
+      [&](Index face, PieceParts& cutter, std::vector<PiecePart>& out) {
+        pieces.visit(face, [&](const PieceType& type, const Points& local, const CellCorners& corners) {
+          cutter.find(type, local, corners, 0, out);
+        });
       },
-      addresses_a_block);
-  std::vector<FlatCell> cells;
-  for (std::vector<FlatCell>& block : blocks) std::ranges::move(block, std::back_inserter(cells));
+      options);
   for (const FlatCell& cell : cells) {
     if (!cell.whole) continue;
     for (Points& net : cell.whole->nets) net.rowwise() += points.row(0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/search/detail/searched_surface.h"
+#include "sublimit/parts/parted_surface.h"
 
 #include "sublimit/core/detail/finite_points.h"
-#include "sublimit/integrals/detail/closed_surface.h"
+#include "sublimit/parts/closed_surface.h"
 
 namespace sublimit {
 namespace {
@@ -20,17 +20,17 @@ const LimitSurface& measurable(const LimitSurface& surface) {
 
 }  // namespace
 
-SearchedLimit::SearchedLimit(const LimitSurface& surface)
+PartedLimit::PartedLimit(const LimitSurface& surface)
     : surface_(measurable(surface)),
       pieces_(surface_.map(), surface_.points()),
       levels_(levels_of(pieces_, surface_.faces().size)) {}
 
-void SearchedLimit::find_parts(Index face, PieceParts& cutter, std::vector<PiecePart>& out) const {
+void PartedLimit::find_parts(Index face, PieceParts& cutter, std::vector<PiecePart>& out) const {
   pieces_.visit(face, [&](const PieceType& type, const Points& local, const CellCorners& corners) {
     cutter.find(type, local, corners, levels_, out);
   });
 }
 
-std::string SearchedLimit::why_not_closed() const { return sublimit::why_not_closed(surface_.map()); }
+std::string PartedLimit::why_not_closed() const { return sublimit::why_not_closed(surface_.map()); }
 
 }  // namespace sublimit

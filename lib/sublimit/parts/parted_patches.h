@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Classical patches for searches: each face as a polynomial or rational Bezier net.
+#include "sublimit/parts/parted_surface.h"
 #include "sublimit/patches/patch_set.h"
-#include "sublimit/search/detail/searched_surface.h"
 
 namespace sublimit {
 
@@ -10,20 +10,21 @@ namespace sublimit {
 /// their weights are positive. Faces that are not polynomial or rational (screw, gregory with different twists)
 /// have no parts, nor do regions near a pole. Nearest points are found there from a grid of places; if there
 /// are such faces, nothing is proved for any face, and rays are refused.
-class SearchedPatches : public SearchedSurface {
+class PartedPatches : public PartedSurface {
  public:
   /// @param patches  must outlive this
   /// @param columns  control columns of the set
   /// @throws InvalidParameter  columns of another size, or not finite
-  SearchedPatches(const PatchSet& patches, const Points& columns);
-  SearchedPatches(const PatchSet&&, const Points&) = delete;
+  PartedPatches(const PatchSet& patches, const Points& columns);
+  PartedPatches(const PatchSet&&, const Points&) = delete;
   FaceCount faces() const override { return patches_.faces(); }
   const BoundSource& samples() const override { return *samples_; }
   std::vector<LimitCell> cells() const override;
   void find_parts(Index face, PieceParts&, std::vector<PiecePart>& out) const override;
   std::string without_parts() const override { return without_parts_; }
-  /// Patches are closed if they are B-splines, each side is shared with another one or collapsed, and normals
-  /// are oriented consistently.
+  /// Returns the largest degree of the parts of a face, in either direction.
+  int degree(Index face) const;
+  /// Patches are closed if each side is shared with another one or collapsed, and normals are oriented consistently.
   std::string why_not_closed() const override;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/integrals/detail/closed_surface.h"
+#include "sublimit/parts/closed_surface.h"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Interface of surfaces for searches in space, implemented by limits of schemes (`SearchedLimit`) and patches
-// (`SearchedPatches`).
+// Interface of surfaces for searches in space, implemented by limits of schemes (`PartedLimit`) and patches
+// (`PartedPatches`).
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,11 +14,11 @@
 namespace sublimit {
 
 /// A surface with its points.
-class SearchedSurface {
+class PartedSurface {
  public:
-  virtual ~SearchedSurface() = default;
-  SearchedSurface(const SearchedSurface&) = delete;
-  SearchedSurface& operator=(const SearchedSurface&) = delete;
+  virtual ~PartedSurface() = default;
+  PartedSurface(const PartedSurface&) = delete;
+  PartedSurface& operator=(const PartedSurface&) = delete;
 
   virtual FaceCount faces() const = 0;
   /// Returns the evaluator of points, derivatives and normals. Thread-safe.
@@ -34,17 +34,17 @@ class SearchedSurface {
   virtual std::string why_not_closed() const = 0;
 
  protected:
-  SearchedSurface() = default;
+  PartedSurface() = default;
 };
 
 /// A limit surface.
-class SearchedLimit : public SearchedSurface {
+class PartedLimit : public PartedSurface {
  public:
   /// @throws InvalidParameter  points beyond 1e150
-  explicit SearchedLimit(const LimitSurface& surface);
+  explicit PartedLimit(const LimitSurface& surface);
   /// @param points  points of the map's level, #V x 3
   /// @throws InvalidParameter  points of another shape, or beyond 1e150
-  SearchedLimit(const LimitMap& map, const Points& points) : SearchedLimit(LimitSurface(map, points)) {}
+  PartedLimit(const LimitMap& map, const Points& points) : PartedLimit(LimitSurface(map, points)) {}
   FaceCount faces() const override { return surface_.faces(); }
   const BoundSource& samples() const override { return surface_; }
   std::vector<LimitCell> cells() const override { return limit_cells(surface_.map(), surface_.points()); }

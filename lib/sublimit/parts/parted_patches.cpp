@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/search/detail/searched_patches.h"
+#include "sublimit/parts/parted_patches.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <optional>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "sublimit/core/detail/binomial.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/nets/hull_cell.h"
+#include "sublimit/parts/shared_sides.h"
 #include "sublimit/patches/joins/patch_seams.h"
 
 namespace sublimit {
@@ -68,7 +70,7 @@ void add_parts(PiecePart&& whole, PieceParts& cutter, std::vector<PiecePart>& ou
 
 }  // namespace
 
-SearchedPatches::SearchedPatches(const PatchSet& patches, const Points& columns)
+PartedPatches::PartedPatches(const PatchSet& patches, const Points& columns)
     : patches_(patches),
       columns_(columns),
       samples_(patches.bound(columns)),
@@ -105,13 +107,19 @@ SearchedPatches::SearchedPatches(const PatchSet& patches, const Points& columns)
   if (first != without.end()) without_parts_ = std::move(*first);
 }
 
-void SearchedPatches::find_parts(Index face, PieceParts&, std::vector<PiecePart>& out) const {
+void PartedPatches::find_parts(Index face, PieceParts&, std::vector<PiecePart>& out) const {
   const std::vector<PiecePart>& parts = parts_[size_t(face)];
   out.insert(out.end(), parts.begin(), parts.end());
 }
 
-void SearchedPatches::cut(Index face, const PiecePart& part, int cells, PieceParts& cutter,
-                          std::vector<LimitCell>& out) const {
+int PartedPatches::degree(Index face) const {
+  int largest = 0;
+  for (const PiecePart& part : parts_[size_t(face)]) largest = std::max(largest, part.basis->degree());
+  return largest;
+}
+
+void PartedPatches::cut(Index face, const PiecePart& part, int cells, PieceParts& cutter,
+                        std::vector<LimitCell>& out) const {
   constexpr int most_cells = 64;
   const bool triangle = part.is_triangle();
   const Points& net = part.nets[0];
@@ -133,8 +141,7 @@ void SearchedPatches::cut(Index face, const PiecePart& part, int cells, PiecePar
   for (int k = 0; k < 4; ++k) cut(face, cutter.quarter(part, k), 4 * cells, cutter, out);
 }
 
-void SearchedPatches::add_sampled(Index face, const CellCorners& corners, int cells,
-                                  std::vector<LimitCell>& out) const {
+void PartedPatches::add_sampled(Index face, const CellCorners& corners, int cells, std::vector<LimitCell>& out) const {
   constexpr int steps_a_cell = 4;
   const bool triangle = faces().triangles;
   const int steps = steps_a_cell * cells;
@@ -166,7 +173,7 @@ void SearchedPatches::add_sampled(Index face, const CellCorners& corners, int ce
     }
 }
 
-std::vector<LimitCell> SearchedPatches::cells() const {
+std::vector<LimitCell> PartedPatches::cells() const {
   constexpr std::int64_t faces_a_block = 32;
   std::vector<std::vector<LimitCell>> blocks(size_t(num_blocks(faces().size, faces_a_block)));
   parallel_for_blocks(
@@ -187,12 +194,20 @@ std::vector<LimitCell> SearchedPatches::cells() const {
   return cells;
 }
 
-std::string SearchedPatches::why_not_closed() const {
-  if (faces().triangles) return "sides of triangular patches are not compared";
-  for (size_t p = 0; p < patches_.members().size(); ++p)
-    if (!dynamic_cast<const SplineSurface*>(patches_.members()[p].patch.get()))
-      return "patch " + std::to_string(p) + " is no B-spline, whose sides would be compared";
+std::string PartedPatches::why_not_closed() const {
   constexpr double same = 1e-9;  // of the diagonal of all control points
+  const bool are_splines = std::ranges::all_of(patches_.members(), [](const PatchSet::Member& member) {
+    return dynamic_cast<const SplineSurface*>(member.patch.get()) != nullptr;
+  });
+  if (!are_splines) {
+    const Points points = points_in_space(columns_);
+    if (points.rows() == 0) return "there are no faces";
+    int largest = 1;
+    for (Index face = 0; face < faces().size; ++face) largest = std::max(largest, degree(face));
+    const double diagonal = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+    return SharedSides(*samples_, faces(), {.same = std::max(same * diagonal, DBL_MIN), .degree = largest})
+        .why_not_closed();
+  }
   const PatchSeams found = patch_seams(patch_columns(patches_, columns_), patches_.coordinates(), {.same = same});
   for (const PatchSeam& seam : found.seams) {
     const std::string where = "patch " + std::to_string(seam.lines[0].patch) + " has a side that is ";

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles of classical patches: within the proved distance, closed where the patches are, on spheres, tori, pipes,
+// the teapot, and triangles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "meshes/construction_data.h"
+#include "meshes/free_form_shapes.h"
+#include "sublimit/base/error.h"
+#include "sublimit/patches/constructions/screw_surface.h"
+#include "sublimit/patches/constructions/triangle_patch.h"
+#include "sublimit/patches/detail/free_form_patches.h"
+#include "sublimit/schemes/schemes.h"
+#include "sublimit/tessellation/tessellate.h"
+#include "support/expect_error.h"
+#include "support/tolerance.h"
+
+namespace sublimit::testing {
+namespace {
+
+Knots<double> uniform_knots(int degree, Index points) {
+  std::vector<double> knots(size_t(points + degree + 1));
+  std::iota(knots.begin(), knots.end(), 0);
+  return Knots<double>::open(degree, points, knots);
+}
+
+Patches patches_of(const RationalShape& shape) {
+  return {PatchSet({std::make_shared<const SplineSurface>(shape.surface)}, Coordinates::homogeneous), shape.columns};
+}
+Patches patches_of(const FreeForm& shapes) {
+  FreeFormPatches found = free_form_patches(shapes, "shapes");
+  return {std::move(found.patches), std::move(found.columns)};
+}
+
+double diagonal_of(const Patches& patches) {
+  const Points points = points_in_space(patches.points());
+  return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+/// How far triangles are from the patches, at the same parameters, on a grid in each.
+double largest_distance(const Tessellation& t, const Patches& patches) {
+  constexpr int steps = 4;
+  std::vector<Place> at;
+  std::vector<Eigen::RowVector3d> flat;
+  for (const Tessellation::Triangle& triangle : t.triangles)
+    for (int i = 0; i <= steps; ++i)
+      for (int j = 0; i + j <= steps; ++j) {
+        const std::array<double, 3> w{1 - double(i + j) / steps, double(i) / steps, double(j) / steps};
+        Place s{triangle.face, 0, 0};
+        Eigen::RowVector3d x = Eigen::RowVector3d::Zero();
+        for (size_t k = 0; k < 3; ++k) {
+          s.u += w[k] * triangle.uv[k][0];
+          s.v += w[k] * triangle.uv[k][1];
+          x += w[k] * t.points.row(triangle.vertices[k]);
+        }
+        s.u = std::clamp(s.u, 0.0, 1.0), s.v = std::clamp(s.v, 0.0, patches.faces().triangles ? 1 - s.u : 1.0);
+        at.push_back(s);
+        flat.push_back(x);
+      }
+  const Points on = patches.evaluate(at).position;
+  double largest = 0;
+  for (size_t i = 0; i < flat.size(); ++i) largest = std::max(largest, (on.row(Index(i)) - flat[i]).norm());
+  return largest;
+}
+
+/// Edges that are not two triangles', once in each direction, and V - E + F.
+struct Closed {
+  int open = 0;
+  Index euler = 0;
+  explicit Closed(const Tessellation& t) {
+    std::map<std::pair<Index, Index>, int> directed;
+    std::set<Index> used;
+    std::set<std::pair<Index, Index>> edges;
+    for (const Tessellation::Triangle& triangle : t.triangles)
+      for (size_t k = 0; k < 3; ++k) {
+        const Index a = triangle.vertices[k], b = triangle.vertices[(k + 1) % 3];
+        EXPECT_NE(a, b);
+        ++directed[{a, b}];
+        edges.insert(std::minmax(a, b));
+        used.insert(a);
+      }
+    for (const auto& [edge, times] : directed) open += times != 1 || !directed.contains({edge.second, edge.first});
+    euler = Index(used.size()) - Index(edges.size()) + Index(t.triangles.size());
+  }
+};
+
+void expect_within_the_bound(const Patches& patches, double part) {
+  const double chord = part * diagonal_of(patches);
+  const Tessellation t = tessellate(patches, {.chord = chord});
+  ASSERT_FALSE(t.triangles.empty());
+  EXPECT_LE(t.bound, 1.001 * chord);  // sides may be apart by a thousandth
+  const double distance = largest_distance(t, patches);
+  EXPECT_LE(distance, t.bound + other_route * diagonal_of(patches));
+  EXPECT_GT(distance, t.bound / 100);  // a bound of much more would be of no use
+}
+
+TEST(PatchTessellation, KeepsItsDistance) {
+  const std::vector<Patches> all{
+      patches_of(unit_sphere()), patches_of(torus()),           patches_of(pipe()),
+      patches_of(teapot()),      patches_of(elevated(torus())), patches_of(elevated(pipe()))};
+  for (size_t k = 0; k < all.size(); ++k)
+    for (const double part : {0.1, 0.01, 0.001}) {
+      SCOPED_TRACE(std::to_string(k) + " " + std::to_string(part));
+      expect_within_the_bound(all[k], part);
+    }
+}
+
+// The poles of a sphere are one point each, and periods close: a sphere has the Euler characteristic 2, a torus 0. A
+// pipe is open at its ends.
+TEST(PatchTessellation, IsClosedWherePatchesAre) {
+  for (const double part : {0.2, 0.03, 0.002}) {
+    SCOPED_TRACE(part);
+    const auto of = [&](const RationalShape& shape) {
+      const Patches patches = patches_of(shape);
+      return Closed(tessellate(patches, {.chord = part * diagonal_of(patches)}));
+    };
+    const Closed sphere = of(unit_sphere()), ring = of(torus()), tube = of(pipe());
+    EXPECT_EQ(sphere.open, 0);
+    EXPECT_EQ(sphere.euler, 2);
+    EXPECT_EQ(ring.open, 0);
+    EXPECT_EQ(ring.euler, 0);
+    EXPECT_GT(tube.open, 0);
+    EXPECT_EQ(tube.euler, 0);
+  }
+}
+
+// Two bilinear patches that are told apart by the order of their sides alone: whichever way round, one edge is common.
+TEST(PatchTessellation, SidesAreOneWhicheverWayRound) {
+  const auto flat = std::make_shared<const SplineSurface>(bezier_knots<double>(1), bezier_knots<double>(1));
+  const Points left{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}, {1, 1, 0}};
+  const Points right{{1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2, 1, 1}};
+  const auto turned = [&](int times) {  // a quarter turn: u runs along what was v
+    Points points = right;
+    for (int k = 0; k < times; ++k) {
+      const Points before = points;
+      points << before.row(1), before.row(3), before.row(0), before.row(2);
+    }
+    return points;
+  };
+  for (int times = 0; times < 4; ++times) {
+    SCOPED_TRACE(times);
+    Points both(8, 3);
+    both << left, turned(times);
+    const Tessellation t = tessellate(Patches(PatchSet({flat, flat}), both), {.chord = 0.01});
+    const std::set<Index> vertices = [&] {
+      std::set<Index> used;
+      for (const auto& triangle : t.triangles) used.insert(triangle.vertices.begin(), triangle.vertices.end());
+      return used;
+    }();
+    std::set<std::array<double, 3>> points;
+    for (const Index v : vertices) points.insert({t.points(v, 0), t.points(v, 1), t.points(v, 2)});
+    EXPECT_EQ(points.size(), vertices.size());  // no point twice
+    EXPECT_EQ(Closed(t).euler, 1);              // one sheet
+  }
+}
+
+// A limit surface of bicubic B-splines and the same surface as patches: the same cells and bounds.
+TEST(PatchTessellation, IsThatOfTheLimitWhichIsTheSameSurface) {
+  std::mt19937 random(5);
+  Mesh grid;
+  const Index n = 6;
+  grid.positions = random_points(random, n * n, 3);
+  for (Index j = 0; j + 1 < n; ++j)
+    for (Index i = 0; i + 1 < n; ++i) {
+      const Index a = j * n + i;
+      grid.face_sizes.push_back(4);
+      for (const Index v : {a, a + 1, a + n + 1, a + n}) grid.face_vertices.push_back(v);
+    }
+  grid.boundary = Boundary::none;  // faces at the border are holes: what is left is the B-spline of uniform knots
+  const auto spline = std::make_shared<const SplineSurface>(uniform_knots(3, n), uniform_knots(3, n));
+  const Patches patches(PatchSet({spline}), grid.positions);
+  const double chord = 0.01;
+  const Tessellation of_limit = tessellate(LimitSurface(grid, "catmull-clark"), {.chord = chord});
+  const Tessellation of_patches = tessellate(patches, {.chord = chord});
+  EXPECT_EQ(of_limit.triangles.size(), of_patches.triangles.size());
+  EXPECT_EQ(of_limit.places.size(), of_patches.places.size());
+  EXPECT_NEAR(of_limit.bound, of_patches.bound, other_route);
+}
+
+TEST(PatchTessellation, TrianglesToo) {
+  std::mt19937 random(2);
+  const auto patch = std::make_shared<const TrianglePatch>(3);
+  const Patches patches(PatchSet({patch}), random_points(random, patch->num_points(), 3));
+  for (const double part : {0.1, 0.003}) expect_within_the_bound(patches, part);
+}
+
+TEST(PatchTessellation, NormalsOfACellAreWithinTheAngle) {
+  const Patches patches = patches_of(unit_sphere());
+  const double angle = 0.2, chord = 0.05;
+  const Tessellation t = tessellate(patches, {.chord = chord, .angle = angle, .normals = true});
+  EXPECT_GT(t.cells, tessellate(patches, {.chord = chord}).cells);
+  for (Index k = 0; k < std::ssize(t.triangles); ++k)
+    for (int c = 0; c < 3; ++c) {
+      const auto at = [&](int corner) {
+        return Eigen::RowVector3d(t.points.row(t.triangles[size_t(k)].vertices[size_t(corner % 3)]));
+      };
+      const Eigen::RowVector3d n = t.normals.row(3 * k + c), next = t.normals.row(3 * k + (c + 1) % 3);
+      EXPECT_LE((n - at(c).normalized()).norm(), found_distance);
+      if ((at(c) - at(c + 1)).norm() > chord) {
+        EXPECT_LE((n - next).norm(), angle);
+      }
+    }
+}
+
+TEST(PatchTessellation, SaysWhatItCannot) {
+  const Patches patches = patches_of(unit_sphere());
+  expect_error<InvalidParameter>([&] { (void)tessellate(patches, {.chord = 0}); }, {"the chord is 0"});
+  expect_error<InvalidParameter>([&] { (void)tessellate(patches, {.chord = 0.1, .rates = {1}}); },
+                                 {"rates are of the edges of a mesh"});
+  expect_error<InvalidParameter>([&] { (void)tessellate(patches, {.chord = 1e-30}); }, {"rounded"});
+  expect_error<ResourceError>([&] { (void)tessellate(patches, {.chord = 1e-3, .max_triangles = 10}); },
+                              {"more than 10 triangles"});
+}
+
+}  // namespace
+}  // namespace sublimit::testing
