@@ -34,6 +34,8 @@ struct [[nodiscard]] CurveSamples {
 
   /// Makes rows of zeros, for derivatives up to an order.
   CurveSamples(Eigen::Index rows, Eigen::Index dimension, int derivatives);
+  /// Returns the number of derivatives that there are rows for; without any rows 0.
+  int derivatives() const { return int{first.rows() > 0} + int{second.rows() > 0}; }
   /// Fills the normal of a row from its derivatives.
   /// @param noise  a first derivative of at most this length counts as zero: the status becomes `undefined_normal`
   void set_normal(Index row, double noise);

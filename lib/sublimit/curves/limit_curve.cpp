@@ -12,8 +12,6 @@
 namespace sublimit {
 namespace {
 
-constexpr std::int64_t places_per_block = 256;
-
 /// A place on a curve by pieces, s in [0, 1].
 struct PieceOfCurve {
   Index curve = 0;
@@ -171,7 +169,8 @@ LimitCurve& LimitCurve::operator=(LimitCurve&&) noexcept = default;
 
 Index LimitCurve::num_segments() const { return parts_->first_segment.back(); }
 Index LimitCurve::num_curves() const { return static_cast<Index>(parts_->curves.size()); }
-Index LimitCurve::num_unknowns() const { return parts_->num_points * parts_->unknowns(); }
+Index LimitCurve::num_points() const { return parts_->num_points; }
+Index LimitCurve::unknowns_per_point() const { return parts_->unknowns(); }
 
 Index LimitCurve::first_segment(Index curve) const {
   if (curve < 0 || curve >= num_curves())
@@ -210,51 +209,28 @@ CurveStencil LimitCurve::stencil(const CurvePlace& place, int order) const {
   return result;
 }
 
-CurveSamples LimitCurve::evaluate(const Points& unknowns, std::span<const CurvePlace> samples, int order) const {
-  check_order(order);
-  if (unknowns.rows() != num_unknowns())
-    throw InvalidParameter("there are " + std::to_string(unknowns.rows()) + " rows of points; the curves have " +
-                           std::to_string(num_unknowns()) + (parts_->unknowns() > 1 ? ", derivatives included" : ""));
-  const auto count = static_cast<std::int64_t>(samples.size());
-  for (std::int64_t i = 0; i < count; ++i) check_place(samples[i], num_segments(), i);
-  const Eigen::Index dimension = unknowns.cols();
-  CurveSamples result(count, dimension, order);
-  parallel_for_blocks(
-      count,
-      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-        CurvePieceRows rows;
-        for (std::int64_t i = begin; i < end; ++i) {
-          PieceOfCurve place = parts_->place(samples[i]);
-          result.status[i] = parts_->rows(place, order, rows);
-          const int derivatives = std::min(order, rows.exists);
-          result.order[i] = static_cast<std::int8_t>(derivatives);
-          double noise = 0;
-          Points* parts[] = {&result.position, &result.first, &result.second};
-          parts_->for_each_unknown(place, [&](Index column, Index name) {
-            const double* x = unknowns.data() + name * dimension;
-            for (int k = 0; k <= derivatives; ++k) {
-              const double weight = rows.row(k)[column];
-              double* sum = parts[k]->data() + i * dimension;
-              for (Eigen::Index c = 0; c < dimension; ++c) sum[c] += weight * x[c];
-              if (k != 1) continue;
-              for (Eigen::Index c = 0; c < dimension; ++c) noise += std::abs(weight * x[c]);
-            }
-          });
-          if (derivatives > 0)
-            result.set_normal(static_cast<Index>(i), 16 * std::numeric_limits<double>::epsilon() * noise);
-        }
-      },
-      places_per_block);
-  return result;
-}
-
-std::vector<CurvePlace> LimitCurve::grid(int N) const {
-  if (N < 2) throw InvalidParameter("a grid of " + std::to_string(N) + " has no two ends; it must be 2 or more");
-  std::vector<CurvePlace> samples;
-  samples.reserve(static_cast<size_t>(num_segments()) * N);
-  for (Index segment = 0; segment < num_segments(); ++segment)
-    for (int i = 0; i < N; ++i) samples.push_back({segment, static_cast<double>(i) / (N - 1)});
-  return samples;
+void LimitCurve::sample(const CurvePlace& place, const Points& columns, Coordinates coordinates, Index row,
+                        CurveSamples& out) const {
+  if (coordinates == Coordinates::homogeneous) return CurveSource::sample(place, columns, coordinates, row, out);
+  PieceOfCurve piece = parts_->place(place);
+  CurvePieceRows rows;
+  out.status[row] = parts_->rows(piece, out.derivatives(), rows);
+  const int derivatives = std::min(out.derivatives(), rows.exists);
+  out.order[row] = static_cast<std::int8_t>(derivatives);
+  const Eigen::Index dimension = columns.cols();
+  double noise = 0;
+  Points* const parts[] = {&out.position, &out.first, &out.second};
+  parts_->for_each_unknown(piece, [&](Index column, Index name) {
+    const double* x = columns.data() + name * dimension;
+    for (int k = 0; k <= derivatives; ++k) {
+      const double weight = rows.row(k)[column];
+      double* sum = parts[k]->data() + row * dimension;
+      for (Eigen::Index c = 0; c < dimension; ++c) sum[c] += weight * x[c];
+      if (k != 1) continue;
+      for (Eigen::Index c = 0; c < dimension; ++c) noise += std::abs(weight * x[c]);
+    }
+  });
+  if (derivatives > 0) out.set_normal(row, 16 * std::numeric_limits<double>::epsilon() * noise);
 }
 
 CurveSamples evaluate(const GeometricCurveScheme& scheme, const ControlPolygon& polygon,
@@ -300,7 +276,7 @@ CurveSamples evaluate(const GeometricCurveScheme& scheme, const ControlPolygon& 
           result.set_normal(static_cast<Index>(i), 0);
         }
       },
-      places_per_block);
+      256);
   return result;
 }
 

@@ -21,11 +21,9 @@
 // `outside`, and so at the end.
 #include <memory>
 #include <span>
-#include <vector>
 
-#include "sublimit/curves/curve_place.h"
 #include "sublimit/curves/curve_refine.h"
-#include "sublimit/source/limit_status.h"
+#include "sublimit/curves/curve_source.h"
 
 namespace sublimit {
 
@@ -35,22 +33,11 @@ using GeometricCurveScheme = GeometricScheme<ControlPolygon>;
 
 class CurvePieces;
 
-/// The stencil of a place: weights over the unknowns of the control polygon. Plain data.
-///
-/// Status: `regular`: position and two derivatives; `unbounded_second`: the second derivative is unbounded or not
-/// continuous, and absent; `crease`: an end of an open curve, or a corner of the curve: derivatives are one-sided, at a
-/// corner those of the segment that was given; `undefined_normal`: no derivative; `outside`: before the start or after
-/// the end of a curve with free ends.
-struct [[nodiscard]] CurveStencil {
-  LimitStatus status = LimitStatus::regular;
-  std::vector<Index> unknowns;  ///< ascending; points, in Hermite schemes 2i for point i and 2i + 1 for its derivative
-  /// Rows: position, then the first and the second derivative as far as asked for and existing; one column per unknown.
-  /// Position weights of points sum to 1, derivatives' to 0.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights;
-};
-
 /// The limit of the curves of a polygon, without points. It never changes: threads may share it.
-class LimitCurve {
+///
+/// Stencils have weights over the rows of `unknowns(scheme, polygon)`. The status of a place does not depend on the
+/// order that was asked for: `crease` is an end of an open curve or a corner.
+class LimitCurve : public CurveSource {
  public:
   /// Makes the limit of a polygon, with stencils over its points.
   /// @throws InvalidMesh, UnsupportedTopology, ResourceError  as refinement does
@@ -58,35 +45,25 @@ class LimitCurve {
   LimitCurve(const CurveScheme<double>& scheme, const ControlPolygon& polygon);
   /// Makes the curve from a level, with stencils over its points, and derivatives per segment of it.
   LimitCurve(const CurveScheme<double>& scheme, const CurveLevel& level);
-  ~LimitCurve();
+  ~LimitCurve() override;
   LimitCurve(LimitCurve&&) noexcept;
   LimitCurve& operator=(LimitCurve&&) noexcept;
 
-  /// Returns the number of segments of all curves.
-  Index num_segments() const;
+  Index num_segments() const override;
+  Index num_points() const override;
+  Index unknowns_per_point() const override;
   Index num_curves() const;
   /// Returns the first segment of a curve; its other segments follow.
   Index first_segment(Index curve) const;
-  /// Returns the number of unknowns that stencils have weights for: rows of `unknowns(scheme, polygon)`.
-  Index num_unknowns() const;
   /// Returns the natural parameter of a place on its curve: i + t, and with kept ends in a dual scheme t/2, 1/2 + t,
   /// ...
   double parameter(const CurvePlace& place) const;
 
-  /// Returns the stencil of one place. The status says which derivatives do not exist there.
-  /// @param order  number of derivatives: 0, 1 or 2
-  /// @throws InvalidParameter  a segment that does not exist, t outside [0, 1] or not finite, another order
-  CurveStencil stencil(const CurvePlace& place, int order = 0) const;
+  CurveStencil stencil(const CurvePlace& place, int order = 0) const override;
 
-  /// Returns points of the curve with derivatives and normals; in parallel.
-  /// @param unknowns  #unknowns x dimension
-  /// @param order     number of derivatives: 0, 1 or 2
-  /// @throws InvalidParameter  a place as in `stencil`: names its row; an array with another number of rows
-  CurveSamples evaluate(const Points& unknowns, std::span<const CurvePlace> places, int order = 0) const;
-
-  /// Returns N places on every segment at equal distances of t, both ends included.
-  /// @throws InvalidParameter  fewer than 2
-  std::vector<CurvePlace> grid(int N) const;
+ protected:
+  void sample(const CurvePlace& place, const Points& columns, Coordinates coordinates, Index row,
+              CurveSamples& out) const override;
 
  private:
   struct Parts;

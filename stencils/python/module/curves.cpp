@@ -49,6 +49,17 @@ py::dict sampled(CurveSamples&& found, const std::vector<CurvePlace>& at, int or
   return all;
 }
 
+/// Places of any curve that is linear in its points.
+py::dict evaluated(const CurveSource& curve, const Points& columns, Coordinates coordinates,
+                   const Array<Index>& segments, const Array<double>& t, int order, int threads) {
+  const std::vector<CurvePlace> at = places(segments, t);
+  CurveSamples found = without_gil([&] {
+    const Threads held(threads);
+    return curve.evaluate(columns, at, order, coordinates);
+  });
+  return sampled(std::move(found), at, order);
+}
+
 /// One curve with its points, and tangents where its scheme takes them.
 class Curve {
  public:
@@ -64,33 +75,15 @@ class Curve {
   Index num_unknowns() const { return curve_->num_unknowns(); }
 
   py::dict evaluate(const Array<Index>& segments, const Array<double>& t, int order, int threads) const {
-    const std::vector<CurvePlace> at = places(segments, t);
-    CurveSamples found = without_gil([&] {
-      const Threads held(threads);
-      return curve_->evaluate(unknowns_, at, order);
-    });
-    return sampled(std::move(found), at, order);
+    return evaluated(*curve_, unknowns_, Coordinates::plain, segments, t, order, threads);
   }
 
   /// A matrix for the position and for each derivative; rows of what does not exist are empty.
   py::list stencils(const Array<Index>& segments, const Array<double>& t, int order) const {
     const std::vector<CurvePlace> at = places(segments, t);
-    std::vector<SparseMatrix> matrices = without_gil([&] {
-      std::vector<SparseMatrix> made(size_t(order) + 1, SparseMatrix(Index(at.size()), num_unknowns()));
-      for (size_t i = 0; i < at.size(); ++i) {
-        const CurveStencil stencil = curve_->stencil(at[i], order);
-        for (Eigen::Index q = 0; q <= order; ++q) {
-          made[size_t(q)].startVec(Eigen::Index(i));
-          if (q >= stencil.weights.rows()) continue;
-          for (size_t k = 0; k < stencil.unknowns.size(); ++k)
-            made[size_t(q)].insertBack(Eigen::Index(i), stencil.unknowns[k]) = stencil.weights(q, Eigen::Index(k));
-        }
-      }
-      for (SparseMatrix& matrix : made) matrix.finalize();
-      return made;
-    });
+    PlaceStencils found = without_gil([&] { return place_stencils(*curve_, at, order); });
     py::list all;
-    for (SparseMatrix& matrix : matrices) all.append(csr(std::move(matrix)));
+    for (SparseMatrix& matrix : found.matrices) all.append(csr(std::move(matrix)));
     return all;
   }
 
@@ -103,12 +96,8 @@ class Curve {
 
 py::dict evaluate_curves(const Curves& curves, const Array<Index>& segments, const Array<double>& t, int order,
                          int threads) {
-  const std::vector<CurvePlace> at = places(segments, t);
-  CurveSamples found = without_gil([&] {
-    const Threads held(threads);
-    return curves.evaluate(at, order);
-  });
-  return sampled(std::move(found), at, order);
+  return evaluated(curves.set(), curves.points(), curves.rational() ? Coordinates::homogeneous : Coordinates::plain,
+                   segments, t, order, threads);
 }
 
 /// Points of a level, one curve.

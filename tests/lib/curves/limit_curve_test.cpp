@@ -608,7 +608,7 @@ TEST(LimitCurve, RefusesPlacesThatDoNotExist) {
   expect_error<InvalidParameter>([&] { limit.first_segment(1); }, {"curve 1"});
   const std::vector<CurvePlace> samples{{0, 0}, {3, 0.5}, {3, nan}};
   expect_error<InvalidParameter>([&] { limit.evaluate(points, samples); }, {"sample 2", "t is nan"});
-  expect_error<InvalidParameter>([&] { limit.evaluate(Points::Zero(7, 2), samples); }, {"7 rows", "8"});
+  expect_error<InvalidParameter>([&] { limit.evaluate(Points::Zero(7, 2), samples); }, {"7 x 2", "8 control points"});
   expect_error<UnsupportedTopology>([&] { LimitCurve(*find_curve_scheme("six-point"), random_polygon(2, false)); },
                                     {"needs at least 6"});
 }
