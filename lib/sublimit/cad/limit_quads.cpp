@@ -194,7 +194,7 @@ LimitQuads limit_quads(const LimitMap& surface, const Points& points, const Limi
   std::vector<LimitQuad> caps;
   for (int round = 0; !rest.empty(); ++round) {
     if (options.progress) options.progress(round);
-    const std::vector<size_t> group = groups_of(rest, LimitPatches::parts_of(surface));
+    const std::vector<size_t> group = groups_of(rest, surface.parts());
     std::vector<LimitQuad> own = fitter.caps(rest, group);
     if (options.join_smoothly) fitter.join(rest, group, own);
     const std::vector<double> deviation = fitter.deviations(own);

@@ -69,7 +69,7 @@ Points side_net(const LimitQuad& q, int side) {
 class EdgeFinder {
  public:
   EdgeFinder(const LimitMap& surface, const std::vector<LimitQuad>& quads)
-      : parts_(LimitPatches::parts_of(surface)),
+      : parts_(surface.parts()),
         quads_(quads),
         corners_(parts_),
         middles_(parts_),

@@ -268,7 +268,7 @@ std::optional<EstimatedSums> polynomial_sums(const LimitMap::Parts& parts, const
 
 /// @param points  about their middle, of a size near 1
 EstimatedSums sums_over(const LimitMap& surface, const Points& points) {
-  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts& parts = surface.parts();
   const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
   const Points& x = parts.prepared ? fine : points;
   if (const std::optional<EstimatedSums> sums = polynomial_sums(parts, x)) return *sums;
@@ -278,7 +278,7 @@ EstimatedSums sums_over(const LimitMap& surface, const Points& points) {
 }  // namespace
 
 LimitIntegrals limit_integrals(const LimitMap& surface, const Points& points) {
-  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts& parts = surface.parts();
   if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
     throw InvalidParameter("integrals need a point of three coordinates for each vertex");
   check_finite_control(points);

@@ -155,7 +155,7 @@ class Cutter {
 }  // namespace
 
 std::vector<LimitCell> limit_cells(const LimitMap& surface, const Points& points) {
-  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts& parts = surface.parts();
   if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
     throw InvalidParameter("cells need a point of three coordinates for each vertex");
   check_finite_control(points);

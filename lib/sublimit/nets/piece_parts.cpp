@@ -8,7 +8,7 @@
 #include <string>
 
 #include "sublimit/base/error.h"
-#include "sublimit/surface/detail/limit_patches.h"
+#include "sublimit/surface/detail/limit_map_parts.h"
 
 namespace sublimit {
 namespace {
@@ -133,7 +133,7 @@ PiecePart PieceParts::quarter(const PiecePart& part, int k) {
   return quarter;
 }
 
-AddressPieces::AddressPieces(const LimitMap& surface, const Points& points) : parts_(LimitPatches::parts_of(surface)) {
+AddressPieces::AddressPieces(const LimitMap& surface, const Points& points) : parts_(surface.parts()) {
   if (points.cols() != 3 || points.rows() != parts_.level.topology().num_vertices())
     throw InvalidParameter("cells need a point of three coordinates for each vertex");
   points_ = parts_.prepared ? Points(parts_.prepared->S * points) : points;

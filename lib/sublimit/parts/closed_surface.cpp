@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "sublimit/surface/detail/limit_map_parts.h"
-#include "sublimit/surface/detail/limit_patches.h"
 
 namespace sublimit {
 
 std::string why_not_closed(const LimitMap& surface) {
-  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts& parts = surface.parts();
   const Level& level = parts.level;
   const Topology& t = level.topology();
   // Sheets that meet at an edge have the same curve there, unless the scheme keeps them apart: their boundaries cancel

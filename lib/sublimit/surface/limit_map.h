@@ -83,6 +83,10 @@ class LimitMap : public LinearSource {
 
   /// Computes all pieces now, in parallel, instead of each at its first use.
   void prepare() const;
+  /// Returns what the map consists of, for the rooms that divide the surface in other ways; not installed
+  /// (surface/detail/limit_map_parts.h).
+  const Parts& parts() const& { return *parts_; }
+  const Parts& parts() const&& = delete;
 
   Index num_points() const override;
   FaceCount faces() const override { return addresses(); }
@@ -107,7 +111,6 @@ class LimitMap : public LinearSource {
   std::vector<Eigen::AlignedBox3d> bounding_boxes(const Points& points) const;
 
  private:
-  friend class LimitPatches;
   std::shared_ptr<const Parts> parts_;
 };
 

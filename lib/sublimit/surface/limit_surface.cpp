@@ -17,9 +17,7 @@ struct LimitSurface::Bound {
   LimitPatches patches;  // refers to both
 
   Bound(const LimitMap& of, Points at)
-      : map(of),
-        points(std::move(at)),
-        patches((check_points(map.level(), points), LimitPatches::parts_of(map)), points) {}
+      : map(of), points(std::move(at)), patches((check_points(map.level(), points), map.parts()), points) {}
   Bound(const Bound&) = delete;
 };
 

@@ -12,7 +12,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/parts/parted_patches.h"
 #include "sublimit/parts/shared_sides.h"
-#include "sublimit/surface/detail/limit_patches.h"
+#include "sublimit/surface/detail/limit_map_parts.h"
 #include "sublimit/tessellation/detail/cell_polygon.h"
 #include "sublimit/tessellation/detail/cell_vertices.h"
 #include "sublimit/tessellation/detail/edge_rates.h"
@@ -96,7 +96,7 @@ FlatCellOptions cell_options(const TessellationOptions& options) {
 
 Tessellation tessellate(const LimitMap& surface, const Points& control, const TessellationOptions& options) {
   check(options);
-  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts& parts = surface.parts();
   FlatCellOptions wanted = cell_options(options);
   if (!options.rates.empty()) {
     const Topology& topology = parts.level.topology();

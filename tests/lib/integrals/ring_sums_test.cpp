@@ -17,7 +17,7 @@
 #include "sublimit/integrals/detail/quadrature.h"
 #include "sublimit/integrals/limit_integrals.h"
 #include "sublimit/nets/piece_hull.h"
-#include "sublimit/surface/detail/limit_patches.h"
+#include "sublimit/surface/detail/limit_map_parts.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -114,7 +114,7 @@ void add(const PieceType& type, const Basis& M, Form& form, int& sums, int depth
 
 /// @return  volume, and how many pieces had sums of rings
 std::pair<double, int> closed_sum(const LimitMap& surface, const Points& points) {
-  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts& parts = surface.parts();
   const LimitMap::Parts::Pieces& pieces = parts.pieces();
   Form form(3);
   int sums = 0;

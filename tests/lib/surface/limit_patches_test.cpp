@@ -27,7 +27,7 @@ TEST(LimitPatches, RowsOfAlikePlacesAreMadeOnce) {
   LimitSamples found = expected;
   found.position.setZero();
   found.duu.setZero();
-  const LimitPatches patches(LimitPatches::parts_of(surface), mesh.positions);
+  const LimitPatches patches(surface.parts(), mesh.positions);
   EXPECT_EQ(patches.evaluate(samples, 0, std::ssize(samples), 2, true, found), 2);
   EXPECT_EQ(found.position, expected.position);
   EXPECT_EQ(found.duu, expected.duu);

@@ -15,8 +15,8 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/certificates/c1/bernstein.h"
 #include "sublimit/certificates/numbers/algebraic.h"
+#include "sublimit/core/detail/bernstein.h"
 #include "sublimit/neighborhood/regular_mask.h"
 
 namespace sublimit {

@@ -27,9 +27,6 @@ class LimitPatches {
   std::int64_t evaluate(std::span<const Place> samples, std::int64_t begin, std::int64_t end, int order, bool normals,
                         LimitSamples& out) const;
 
-  /// Returns the parts of a map, for code that divides a surface in other ways.
-  static const LimitMap::Parts& parts_of(const LimitMap& surface) { return *surface.parts_; }
-
  private:
   struct Loop;
   const LimitMap::Parts& parts_;

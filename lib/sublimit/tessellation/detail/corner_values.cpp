@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/tessellation/detail/corner_values.h"
 
-#include "sublimit/surface/detail/limit_patches.h"
+#include "sublimit/surface/detail/limit_map_parts.h"
 #include "sublimit/tessellation/detail/cell_vertices.h"
 
 namespace sublimit {
 
 CornerValues corner_values(const Tessellation& made, const LimitMap& channel) {
-  CellVertices values(LimitPatches::parts_of(channel));
+  CellVertices values(channel.parts());
   CornerValues found;
   found.indices.reserve(3 * made.triangles.size());
   // Corners are whole numbers of steps, and so divided without rounding.

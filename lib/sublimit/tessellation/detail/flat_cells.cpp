@@ -16,6 +16,7 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
+#include "sublimit/core/detail/bernstein.h"
 #include "sublimit/core/detail/finite_points.h"
 #include "sublimit/nets/net_derivatives.h"
 
@@ -32,13 +33,20 @@ struct DerivativeBounds {
   double chord() const { return (uu + 2 * uv + vv) / 8; }
 };
 
-/// Those of x = N / w, about a point o near all of x: x_u = (N_u - w_u x) / w, and so on, with |x - o| <= r.
-DerivativeBounds rational_bounds(const PolynomialBasis& basis, Points net) {
+/// N and w of a rational part x = N / w, about a point o in the middle of its control points: x - o = N / w.
+Points about_middle(Points net) {
   Eigen::AlignedBox3d box;
   for (Eigen::Index i = 0; i < net.rows(); ++i) box.extend(net_point(net, i));
   net.leftCols(3) -= net.col(3) * box.center().transpose();
-  const double w = net.col(3).minCoeff(), r = box.diagonal().norm() / 2;
-  const NetDerivatives x(basis, std::move(net), 2);
+  return net;
+}
+
+/// By the quotient rule, term by term: w x_u = N_u - w_u x, and so on, with |x| <= r.
+DerivativeBounds quick_bounds(const PolynomialBasis& basis, const Points& net) {
+  double r = 0;
+  for (Eigen::Index i = 0; i < net.rows(); ++i) r = std::max(r, net_point(net, i).norm());
+  const double w = net.col(3).minCoeff();
+  const NetDerivatives x(basis, net, 2);
   const auto numerator = [&](int du, int dv) { return largest(x.net(du, dv).leftCols(3)); };
   const auto weight = [&](int du, int dv) { return largest(x.net(du, dv).rightCols(1)); };
   const double wu = weight(1, 0), wv = weight(0, 1);
@@ -51,9 +59,53 @@ DerivativeBounds rational_bounds(const PolynomialBasis& basis, Points net) {
   return bounds;
 }
 
+/// By the numerators of derivatives as polynomials, whose terms cancel: with A = w N_u - N w_u, x_u = A / w^2,
+/// x_uu = (w A_u - 2 A w_u) / w^3 and x_uv = (w A_v - 2 A w_v) / w^3. Smaller than `quick_bounds`, but they take
+/// longer.
+DerivativeBounds close_bounds(const PolynomialBasis& basis, const Points& net) {
+  using Polynomial = Bernstein<double>;
+  const int d = basis.degree();
+  const auto column = [&](int k) {
+    Polynomial p(basis.total() ? PieceShape::triangle : PieceShape::square, d, d);
+    for_each_net_row(basis, [&](int i, int j, Eigen::Index row) { p(i, j) = net(row, k); });
+    return p;
+  };
+  const Polynomial w = column(3), wu = w.du(), wv = w.dv();
+  const auto minus = [](Polynomial a, const Polynomial& b, double factor) {
+    for (size_t k = 0; k < a.coefficients().size(); ++k) a.coefficients()[k] -= factor * b.coefficients()[k];
+    return a;
+  };
+  const double least = net.col(3).minCoeff(), cube = least * least * least;
+  std::array<Eigen::ArrayXd, 5> squares;  // of the norms of coefficients, summed over x, y, z
+  const auto add = [&](size_t which, const Polynomial& p) {
+    const Eigen::ArrayXd c =
+        Eigen::Map<const Eigen::ArrayXd>(p.coefficients().data(), Eigen::Index(p.coefficients().size()));
+    squares[which] = squares[which].size() == 0 ? c.square().eval() : (squares[which] + c.square()).eval();
+  };
+  for (int k = 0; k < 3; ++k) {
+    const Polynomial N = column(k), A = minus(w * N.du(), N * wu, 1), B = minus(w * N.dv(), N * wv, 1);
+    add(0, A);
+    add(1, B);
+    add(2, minus(w * A.du(), A * wu, 2));
+    add(3, minus(w * A.dv(), A * wv, 2));
+    add(4, minus(w * B.dv(), B * wv, 2));
+  }
+  const auto bound = [&](size_t which) { return std::sqrt(squares[which].maxCoeff()); };
+  return {.u = bound(0) / (least * least),
+          .v = bound(1) / (least * least),
+          .uu = bound(2) / cube,
+          .uv = bound(3) / cube,
+          .vv = bound(4) / cube};
+}
+
 /// Filip's bound on all of a net.
-double chord_bound(const PolynomialBasis& basis, const Points& net) {
-  if (net.cols() == 4) return rational_bounds(basis, net).chord();
+/// @param enough  a bound below which no better one is looked for
+double chord_bound(const PolynomialBasis& basis, const Points& net, double enough) {
+  if (net.cols() == 4) {
+    const Points centred = about_middle(net);
+    const double quick = quick_bounds(basis, centred).chord();
+    return quick <= enough ? quick : std::min(quick, close_bounds(basis, centred).chord());
+  }
   const NetDerivatives x(basis, net, 2);
   return (largest(x.net(2, 0)) + 2 * largest(x.net(1, 1)) + largest(x.net(0, 2))) / 8;
 }
@@ -61,7 +113,7 @@ double chord_bound(const PolynomialBasis& basis, const Points& net) {
 /// Whether normals of a rational part are nowhere farther apart: x_u and x_v leave what they are in the middle by no
 /// more than second derivatives let them.
 bool is_rational_within_angle(const PolynomialBasis& basis, const Points& net, double angle) {
-  const DerivativeBounds bounds = rational_bounds(basis, net);
+  const DerivativeBounds bounds = close_bounds(basis, about_middle(net));
   const double middle = basis.total() ? 1. / 3 : 0.5;
   const NetDerivatives::Jet at = NetDerivatives(basis, net, 1).at(middle, middle);
   const double w = at.x[3], far = basis.total() ? 2. / 3 : 0.5;
@@ -168,7 +220,7 @@ class Cutter {
       return add({address_, part.corners, 0,
                   std::make_unique<WholePolynomial>(WholePolynomial{std::move(part.nets), *part.basis})});
     double bound = 0;
-    for (const Points& net : part.nets) bound = std::max(bound, chord_bound(*part.basis, net));
+    for (const Points& net : part.nets) bound = std::max(bound, chord_bound(*part.basis, net, options_.chord));
     if ((bound <= options_.chord && !is_bent(part) && !is_too_long(part.corners)) || is_smallest(part.corners))
       return add({address_, part.corners, bound, nullptr});
     for (int k = 0; k < 4; ++k) cut(parts_.quarter(part, k));
@@ -205,7 +257,7 @@ class Cutter {
       by_derivatives = 0;
       for (const PiecePart& part : parts)
         for (const Points& net : part.nets)
-          by_derivatives = std::max(by_derivatives, std::ldexp(chord_bound(*part.basis, net), 2 * part.depth));
+          by_derivatives = std::max(by_derivatives, std::ldexp(chord_bound(*part.basis, net, 0), 2 * part.depth));
       if (by_derivatives <= options_.chord) return by_derivatives;
     }
     const Eigen::Matrix3d A = affine_map(parts, whole, triangle);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sublimit/base/error.h"
-#include "sublimit/surface/detail/limit_patches.h"
+#include "sublimit/surface/detail/limit_map_parts.h"
 #include "sublimit/tessellation/detail/cell_polygon.h"
 #include "sublimit/tessellation/detail/cell_vertices.h"
 #include "sublimit/tessellation/detail/edge_rates.h"
@@ -177,7 +177,7 @@ class FaceGrid {
 
 Tessellation tessellate_by_rates(const LimitMap& surface, const Points& control, std::span<const Index> rates,
                                  std::int64_t max_triangles) {
-  const LimitMap::Parts& parts = LimitPatches::parts_of(surface);
+  const LimitMap::Parts& parts = surface.parts();
   check_edge_rates(parts.level.topology(), rates);
   const AddressPieces pieces(surface, control);
   const RatedFaces faces(parts, rates);
