@@ -134,3 +134,22 @@ def test_refuses_in_clear_words(bicubic: sublimit.Patches, tmp_path: pathlib.Pat
         bicubic.evaluate(1, 0, 0)
     with pytest.raises(sublimit.Error, match="one of levels, grid and at"):
         bicubic.bake()
+
+
+def test_triangles_are_within_the_chord_and_closed(tmp_path: pathlib.Path, bicubic: sublimit.Patches) -> None:
+    near = bicubic.tessellate(0.01, normals=True)
+    assert near.bound <= 0.01 * 1.001 and near.normals is not None and near.normals.shape == (len(near.triangles), 3, 3)
+    again = bicubic.evaluate(near.face, near.u, near.v).points
+    np.testing.assert_allclose(near.points, again, rtol=0, atol=rounding)
+    function = sublimit.tessellate(bicubic, chord=0.01)
+    np.testing.assert_array_equal(function.triangles, near.triangles)
+    with pytest.raises(TypeError, match="neither a scheme nor rates"):
+        sublimit.tessellate(bicubic, chord=0.01, rates={(0, 1): 2})
+    w = 0.5**0.5
+    profile = {"degree": 2, "knots": [0, 0, 0, 1, 1, 2, 2, 2],
+               "homogeneous_xzw": [[0, -1, 1], [w, -w, w], [1, 0, 1], [w, w, w], [0, 1, 1]]}
+    sphere = sublimit.construct({"kind": "revolution", "profile": profile, "start_degrees": 0, "sweep_degrees": 360}).surfaces()
+    triangles = sphere.tessellate(0.01).triangles
+    edges = {(int(a), int(b)) for t in triangles for a, b in zip(t, np.roll(t, -1))}
+    assert all((b, a) in edges for a, b in edges)
+    assert len(np.unique(triangles)) - len(edges) // 2 + len(triangles) == 2

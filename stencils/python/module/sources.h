@@ -11,6 +11,7 @@
 #include "sublimit/search/intersect.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
 #include "sublimit/surface/limit_surface.h"
+#include "sublimit/tessellation/tessellate.h"
 
 namespace sublimit::python {
 
@@ -22,6 +23,7 @@ class Source {
   virtual const Points& points() const = 0;
   virtual ClosestPoints closest(const Points& queries, const ClosestPointOptions& options) const = 0;
   virtual RayHits intersect(const std::vector<Ray>& rays, const RayOptions& options) const = 0;
+  virtual Tessellation tessellate(const TessellationOptions& options) const = 0;
 
   /// Evaluates places on faces of the surface, with derivatives up to `order` and normals.
   LimitSamples evaluate(std::span<const Place> places, int order) const {
@@ -52,6 +54,7 @@ class Surface : public Source {
   RayHits intersect(const std::vector<Ray>& rays, const RayOptions& options) const override {
     return surface_.intersect(rays, options);
   }
+  Tessellation tessellate(const TessellationOptions& options) const override { return surface_.tessellate(options); }
   const LimitSurface& limit_surface() const { return surface_; }
 
  private:
@@ -73,6 +76,7 @@ class PatchSurfaces : public Source {
   RayHits intersect(const std::vector<Ray>& rays, const RayOptions& options) const override {
     return patches_.intersect(rays, options);
   }
+  Tessellation tessellate(const TessellationOptions& options) const override { return patches_.tessellate(options); }
   const Patches& patches() const { return patches_; }
 
  private:

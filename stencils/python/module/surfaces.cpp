@@ -238,15 +238,16 @@ std::vector<Index> rates_of_edges(const Topology& topology, const Rates& given) 
   return all;
 }
 
-py::dict tessellate_surface(const Surface& surface, double chord, double angle, std::int64_t most, const Rates& rates,
-                            bool normals, int threads) {
+py::dict tessellate_source(const Source& surface, double chord, double angle, std::int64_t most, const Rates& rates,
+                           bool normals, int threads) {
   std::vector<Index> triangles, face_of;
   std::vector<double> corners;
   TessellationOptions options{.chord = chord, .angle = angle, .max_triangles = most, .normals = normals};
-  options.rates = rates_of_edges(surface.surface().level().topology(), rates);
+  if (const auto* const limit = dynamic_cast<const Surface*>(&surface))
+    options.rates = rates_of_edges(limit->surface().level().topology(), rates);
   Tessellation made = without_gil([&] {
     const Threads held(threads);
-    Tessellation found = tessellate(surface.limit_surface(), options);
+    Tessellation found = surface.tessellate(options);
     for (const Tessellation::Triangle& triangle : found.triangles) {
       triangles.insert(triangles.end(), triangle.vertices.begin(), triangle.vertices.end());
       face_of.push_back(triangle.face);
@@ -314,7 +315,9 @@ void add_surfaces(py::module_& m) {
       .def("closest", &closest, py::arg("points"), py::arg("nearest"), py::arg("radius"), py::arg("is_signed"),
            py::arg("threads"))
       .def("intersect", &intersect, py::arg("origins"), py::arg("directions"), py::arg("tmin"), py::arg("tmax"),
-           py::arg("all"), py::arg("most_parts"), py::arg("threads"));
+           py::arg("all"), py::arg("most_parts"), py::arg("threads"))
+      .def("tessellate", &tessellate_source, py::arg("chord"), py::arg("angle"), py::arg("most"), py::arg("rates"),
+           py::arg("normals"), py::arg("threads"));
   py::class_<Surface, Source, std::shared_ptr<Surface>>(m, "Surface")
       .def(py::init<const Mesh&, const MeshRequest&>(), py::arg("mesh"), py::arg("request"), long_call)
       .def_property_readonly("points",
@@ -325,9 +328,7 @@ void add_surfaces(py::module_& m) {
             return std::make_shared<Surface>(s.limit_surface().with(points(given)));
           },
           py::arg("points"))
-      .def("explain", &explain, py::arg("face"), py::arg("u"), py::arg("v"))
-      .def("tessellate", &tessellate_surface, py::arg("chord"), py::arg("angle"), py::arg("most"), py::arg("rates"),
-           py::arg("normals"), py::arg("threads"));
+      .def("explain", &explain, py::arg("face"), py::arg("u"), py::arg("v"));
   py::class_<PatchSurfaces, Source, std::shared_ptr<PatchSurfaces>>(m, "Patches")
       .def_property_readonly(
           "columns", [](const py::object& self) { return view(self.cast<const PatchSurfaces&>().points(), self); })

@@ -2,14 +2,16 @@
 """Classical surfaces from free-form .obj files (Bezier, B-spline, NURBS, ...) and from recipes."""
 from __future__ import annotations
 
+import operator
 import os
 from typing import NoReturn
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _arrays as arrays
 from . import _sublimit
-from ._surfaces import Source
+from ._surfaces import Source, Tessellation
 from ._tables import Table, bake_options
 
 
@@ -85,6 +87,43 @@ class Patches(Source):
     def first_faces(self) -> arrays.Ints:
         """First face of each patch, then the number of all faces: (patches + 1,)."""
         return self._core.first_faces
+
+    def tessellate(self, chord: float, *, angle: float = 0, max_triangles: int = 1 << 24, normals: bool = False,
+                   threads: int = 0) -> Tessellation:
+        """Returns triangles within a proved distance of the surfaces.
+
+        Sides of patches are joined if they are the same curve in the same parameter, up to a thousandth of the chord, and poles
+        are single points. A side that lies on a part of another one may leave a crack of up to twice the chord.
+
+        Parameters
+        ----------
+        chord : largest distance between a point of a triangle and the point of the surface with the same parameters, a
+            length > 0
+        angle : largest angle between two normals of a cell, in radians; not enforced in cells of rational surfaces that are
+            smaller than the chord (default: 0, any)
+        max_triangles : largest number of triangles (default: 2**24)
+        normals : compute normals at the corners of triangles (default: False)
+        threads : largest number of threads (default: all)
+
+        Raises
+        ------
+        InvalidParameter
+            A chord that is not positive, or a negative angle; one that is smaller than rounding.
+        UnsupportedTopology
+            A face that is no polynomial and no quotient of polynomials, or one with a denominator that vanishes.
+        ResourceError
+            More than `max_triangles` triangles.
+
+        Examples
+        --------
+        >>> import sublimit
+        >>> plane = {"kind": "bezier_surface", "degree": [1, 1], "points": [[[0, 0, 0], [1, 0, 0]], [[0, 1, 0], [1, 1, 0]]]}
+        >>> len(sublimit.construct(plane).surfaces().tessellate(0.1).triangles)
+        2
+        """
+        none = np.zeros((0, 2), np.int32), np.zeros(0, np.int32)
+        return Tessellation(**self._core.tessellate(float(chord), float(angle), operator.index(max_triangles), none, bool(normals),
+                                                    threads))
 
     def bake(self, levels: int | None = None, *, grid: int | None = None,
              at: tuple[npt.ArrayLike, ...] | None = None, derivatives: int = 0,

@@ -21,6 +21,8 @@ from ._schemes import OptionValue, Scheme, request
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
+    from ._patches import Patches
+
 
 @dataclass(frozen=True)
 class Curvature:
@@ -197,13 +199,13 @@ class RayHits:
 
 @dataclass(frozen=True)
 class Tessellation:
-    """Triangles near a surface, without cracks. `LimitSurface.tessellate` makes them.
+    """Triangles near a surface, without cracks. `LimitSurface.tessellate` and `Patches.tessellate` make them.
 
     ``bake(mesh, scheme, tessellation=...)`` makes a table that moves the points with the control mesh.
 
     Attributes
     ----------
-    points : (n, 3), points of the limit
+    points : (n, 3), points of the surface
     triangles : (m, 3), rows of `points`, counter-clockwise
     triangle_face : (m,), face of the surface that each triangle lies on, as in places
     corners : (m, 3, 2), parameters (u, v) of the corners of each triangle in that face
@@ -570,8 +572,8 @@ def intersect(surface: Source, origins: npt.ArrayLike, directions: npt.ArrayLike
 
 
 @overload
-def tessellate(mesh: LimitSurface, scheme: None = None, *, chord: float, angle: float = 0, max_triangles: int = 1 << 24,
-               rates: Any = None, normals: bool = False, threads: int = 0) -> Tessellation: ...
+def tessellate(mesh: LimitSurface | Patches, scheme: None = None, *, chord: float, angle: float = 0,
+               max_triangles: int = 1 << 24, rates: Any = None, normals: bool = False, threads: int = 0) -> Tessellation: ...
 @overload
 def tessellate(mesh: Mesh, scheme: Scheme | str, *, chord: float, angle: float = 0, max_triangles: int = 1 << 24,
                rates: Any = None, normals: bool = False, boundary: str | None = None, creasing: str | None = None,
@@ -579,19 +581,19 @@ def tessellate(mesh: Mesh, scheme: Scheme | str, *, chord: float, angle: float =
                triangulate: bool = False, no_creases: bool = False, strict: bool = False, threads: int = 0) -> Mesh: ...
 
 
-def tessellate(mesh: Mesh | LimitSurface, scheme: Scheme | str | None = None, *, chord: float, angle: float = 0,
+def tessellate(mesh: Mesh | LimitSurface | Patches, scheme: Scheme | str | None = None, *, chord: float, angle: float = 0,
                max_triangles: int = 1 << 24, rates: Any = None, normals: bool = False, boundary: str | None = None,
                creasing: str | None = None, triangles: str | None = None, face_varying: str | None = None,
                option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
                strict: bool = False, threads: int = 0) -> Mesh | Tessellation:
-    """Returns triangles within a proved distance of a limit surface, without cracks.
+    """Returns triangles within a proved distance of a limit surface, or of patches, without cracks.
 
-    The triangles are a `Mesh` if a mesh and a scheme are given, and a `Tessellation` if a `LimitSurface` is given.
+    The triangles are a `Mesh` if a mesh and a scheme are given, and a `Tessellation` if a `LimitSurface` or `Patches` are given.
     Boundary, creasing and the other keyword arguments that are not listed are those of `refine`; only a `Mesh` takes them.
 
     Parameters
     ----------
-    mesh : a `Mesh`; or a `LimitSurface`, whose method `tessellate` is called
+    mesh : a `Mesh`; or a `LimitSurface` or `Patches`, whose method `tessellate` is called
     scheme : for a `Mesh`: name of a scheme, as in `schemes`, or a `Scheme`
     chord, angle, max_triangles, rates, normals, threads : as in `LimitSurface.tessellate`
 
@@ -604,9 +606,9 @@ def tessellate(mesh: Mesh | LimitSurface, scheme: Scheme | str | None = None, *,
     Raises
     ------
     TypeError
-        A `Mesh` without a scheme, or a `LimitSurface` with one.
+        A `Mesh` without a scheme, or a surface with one; `rates` for `Patches`, which have no edges of a mesh.
     InvalidParameter, UnsupportedTopology, ResourceError
-        As `LimitSurface.tessellate`.
+        As `LimitSurface.tessellate` and `Patches.tessellate`.
 
     Notes
     -----
@@ -625,6 +627,12 @@ def tessellate(mesh: Mesh | LimitSurface, scheme: Scheme | str | None = None, *,
         if scheme is not None:
             raise TypeError("a LimitSurface has its scheme; leave scheme out, or give a Mesh")
         return mesh.tessellate(chord, angle=angle, max_triangles=max_triangles, rates=rates, normals=normals, threads=threads)
+    if isinstance(mesh, Source):
+        if scheme is not None or rates is not None:
+            raise TypeError("patches have neither a scheme nor rates of edges; leave them out")
+        from ._patches import Patches
+        patches = surface_of(mesh, Patches)
+        return patches.tessellate(chord, angle=angle, max_triangles=max_triangles, normals=normals, threads=threads)
     core = core_of(mesh)
     if scheme is None:
         raise TypeError("scheme is missing; a mesh has a limit under a scheme")
