@@ -269,8 +269,7 @@ std::optional<EstimatedSums> polynomial_sums(const LimitMap::Parts& parts, const
 /// @param points  about their middle, of a size near 1
 EstimatedSums sums_over(const LimitMap& surface, const Points& points) {
   const LimitMap::Parts& parts = surface.parts();
-  const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
-  const Points& x = parts.prepared ? fine : points;
+  const Points x = parts.points_of_pieces(points, "integrals");
   if (const std::optional<EstimatedSums> sums = polynomial_sums(parts, x)) return *sums;
   return refined_sums(parts.base(), x, parts.scheme);
 }
@@ -278,9 +277,7 @@ EstimatedSums sums_over(const LimitMap& surface, const Points& points) {
 }  // namespace
 
 LimitIntegrals limit_integrals(const LimitMap& surface, const Points& points) {
-  const LimitMap::Parts& parts = surface.parts();
-  if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
-    throw InvalidParameter("integrals need a point of three coordinates for each vertex");
+  surface.parts().check_points(points, "integrals");
   check_finite_control(points);
   if (points.rows() == 0) return no_faces();
   const UnitBox box(points);

@@ -16,12 +16,8 @@ class Boxes {
  public:
   void extend(Eigen::AlignedBox3d& box, const PieceType& type, const Points& points, int levels) const {
     if (const PiecePolynomial* p = type.polynomial()) {
-      const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
-      const Eigen::MatrixXd M = bernstein_from(p->basis);
-      for (const RowMatrix& C : p->coefficients) {
-        const Points net = M * (C * differences);
-        for (Eigen::Index i = 0; i < net.rows(); ++i) box.extend(Eigen::Vector3d(net.row(i) + points.row(0)));
-      }
+      for (const Points& net : polynomial_nets(*p, bernstein_from(p->basis), points))
+        for (Eigen::Index i = 0; i < net.rows(); ++i) box.extend(Eigen::Vector3d(net.row(i)));
       return;
     }
     if (levels > 0) {
@@ -39,12 +35,9 @@ class Boxes {
 
 std::vector<Eigen::AlignedBox3d> LimitMap::bounding_boxes(const Points& points) const {
   const Parts& parts = *parts_;
-  if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
-    throw InvalidParameter("boxes need a point of three coordinates for each vertex");
+  const Points x = parts.points_of_pieces(points, "boxes");
   check_finite_control(points);
   const Parts::Pieces& pieces = parts.pieces();
-  const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
-  const Points& x = parts.prepared ? fine : points;
   const Boxes boxes;
   std::vector<Eigen::AlignedBox3d> of_piece(parts.num_pieces());
   parallel_for_blocks(

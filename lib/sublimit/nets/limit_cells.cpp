@@ -36,12 +36,8 @@ class Cutter {
   /// @param known  not empty
   void cut(const PieceType& type, const Points& points, const std::vector<Known>& known, int parts) {
     if (const PiecePolynomial* p = type.polynomial()) {
-      const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
       const BernsteinNets& nets = nets_of(p->basis);
-      std::vector<Points> coefficients;  // of both halves of a piece that is cut in two, on all of it
-      for (const RowMatrix& C : p->coefficients)
-        coefficients.push_back((nets.from_basis() * (C * differences)).rowwise() + points.row(0));
-      cut(nets, p->basis.total(), coefficients, known, parts);
+      cut(nets, p->basis.total(), polynomial_nets(*p, nets.from_basis(), points), known, parts);
       return;
     }
     const std::deque<PieceLink>& children = type.children();
@@ -156,12 +152,9 @@ class Cutter {
 
 std::vector<LimitCell> limit_cells(const LimitMap& surface, const Points& points) {
   const LimitMap::Parts& parts = surface.parts();
-  if (points.cols() != 3 || points.rows() != parts.level.topology().num_vertices())
-    throw InvalidParameter("cells need a point of three coordinates for each vertex");
+  const Points x = parts.points_of_pieces(points, "cells");
   check_finite_control(points);
   const LimitMap::Parts::Pieces& pieces = parts.pieces();
-  const Points fine = parts.prepared ? Points(parts.prepared->S * points) : Points();
-  const Points& x = parts.prepared ? fine : points;
   const Index count = parts.addresses.size();
   const bool triangles = parts.addresses.triangles();
   constexpr std::int64_t addresses_a_block = 32;

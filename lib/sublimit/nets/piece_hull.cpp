@@ -104,6 +104,15 @@ BernsteinQuarters::BernsteinQuarters(int degree, bool total) {
   for (int k = 0; k < 4; ++k) quarters_[size_t(k)] = total ? triangle_quarter(degree, k) : square_quarter(degree, k);
 }
 
+std::vector<Points> polynomial_nets(const PiecePolynomial& polynomial, const Eigen::MatrixXd& from_basis,
+                                    const Points& points) {
+  const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
+  std::vector<Points> nets;
+  for (const RowMatrix& C : polynomial.coefficients)
+    nets.push_back((from_basis * (C * differences)).rowwise() + points.row(0));
+  return nets;
+}
+
 Points child_points(const PieceLink& link, const Points& points) {
   const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
   Points child(link.block.child_slots(), points.cols());

@@ -4,6 +4,7 @@
 // piece in the hull of the points that it depends on, if no weight is negative. With negative weights it can
 // leave their extent, by an estimated `PieceType::reach` times its size.
 #include <array>
+#include <vector>
 
 #include "sublimit/neighborhood/piece_types.h"
 
@@ -37,6 +38,12 @@ class BernsteinNets : public BernsteinQuarters {
  private:
   Eigen::MatrixXd from_basis_;
 };
+
+/// Returns the Bernstein coefficients of the polynomials of a piece, a net each.
+/// @param from_basis  `bernstein_from` their basis
+/// @param points      points of the piece, by slot
+std::vector<Points> polynomial_nets(const PiecePolynomial& polynomial, const Eigen::MatrixXd& from_basis,
+                                    const Points& points);
 
 /// Returns the points of a child of a piece, by slot, from those of the piece.
 Points child_points(const PieceLink& link, const Points& points);

@@ -96,10 +96,7 @@ void PieceParts::find(const PieceType& type, const Points& points, const CellCor
   PiecePart part{corners, depth, std::nullopt, {}, &type, {}};
   if (const PiecePolynomial* const polynomial = type.polynomial()) {
     part.basis = polynomial->basis;
-    const Points differences = points.bottomRows(points.rows() - 1).rowwise() - points.row(0);
-    const BernsteinNets& known = nets(polynomial->basis);
-    for (const RowMatrix& C : polynomial->coefficients)
-      part.nets.push_back((known.from_basis() * (C * differences)).rowwise() + points.row(0));
+    part.nets = polynomial_nets(*polynomial, nets(polynomial->basis).from_basis(), points);
     out.push_back(std::move(part));
     return;
   }
@@ -134,9 +131,7 @@ PiecePart PieceParts::quarter(const PiecePart& part, int k) {
 }
 
 AddressPieces::AddressPieces(const LimitMap& surface, const Points& points) : parts_(surface.parts()) {
-  if (points.cols() != 3 || points.rows() != parts_.level.topology().num_vertices())
-    throw InvalidParameter("cells need a point of three coordinates for each vertex");
-  points_ = parts_.prepared ? Points(parts_.prepared->S * points) : points;
+  points_ = parts_.points_of_pieces(points, "cells");
   (void)parts_.pieces();
 }
 

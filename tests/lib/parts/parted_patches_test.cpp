@@ -9,6 +9,7 @@
 #include <random>
 
 #include "meshes/construction_data.h"
+#include "sublimit/integrals/limit_integrals.h"
 #include "sublimit/patches/constructions/revolution.h"
 #include "sublimit/patches/constructions/ruled.h"
 #include "sublimit/patches/constructions/screw_surface.h"
@@ -303,7 +304,36 @@ TEST(PartedPatches, OpenOnesHaveNoInside) {
   expect_error<UnsupportedTopology>([&] { winding_numbers(turned.surface(), query); },
                                     {"normals of patches 0 and 1 look to different sides"});
   const Searched triangle = searched(std::make_shared<const TrianglePatch>(1), Points::Identity(3, 3));
-  expect_error<UnsupportedTopology>([&] { winding_numbers(triangle.surface(), query); }, {"triangular"});
+  expect_error<UnsupportedTopology>([&] { winding_numbers(triangle.surface(), query); },
+                                    {"face 0 has a side that is no other one's"});
+}
+
+// Patches that are no B-splines are closed as their sides say: a tetrahedron of four triangles, and one of them turned
+// over.
+TEST(PartedPatches, TrianglesCloseATetrahedron) {
+  const auto patch = std::make_shared<const TrianglePatch>(1);
+  const Points corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const auto made_of = [&](const std::vector<std::array<int, 3>>& faces) {
+    std::vector<std::shared_ptr<const Patch>> patches(faces.size(), patch);
+    Points columns(3 * Index(faces.size()), 3);
+    for (size_t f = 0; f < faces.size(); ++f)
+      for (size_t k = 0; k < 3; ++k) columns.row(Index(3 * f + k)) = corners.row(faces[f][k]);
+    return Searched{PatchSet(patches), columns};
+  };
+  const Searched closed = made_of({{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+  const ClosestPoints found = closest(closed.surface(), Points{{0.1, 0.2, 0.3}, {-0.5, 0.2, 0.2}}, {.is_signed = true});
+  EXPECT_NEAR(found.distances[0], -0.1, found_distance);
+  EXPECT_NEAR(found.distances[1], 0.5, found_distance);
+  const LimitIntegrals integrals = limit_integrals(Patches(closed.set, closed.columns));
+  ASSERT_TRUE(integrals.solid) << integrals.why_no_solid;
+  EXPECT_NEAR(integrals.solid->volume, 1. / 6, other_route);
+  EXPECT_NEAR(integrals.area, 1.5 + std::sqrt(3) / 2, other_route);
+  EXPECT_NE(
+      made_of({{0, 1, 2}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}).surface().why_not_closed().find("turn one of them over"),
+      std::string::npos);
+  EXPECT_NE(
+      made_of({{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 2, 1}}).surface().why_not_closed().find("two others"),
+      std::string::npos);
 }
 
 TEST(PartedPatches, ControlPointsAreFiniteAndAsMany) {

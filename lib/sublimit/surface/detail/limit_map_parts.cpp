@@ -244,6 +244,16 @@ Piece LimitMap::Parts::piece(Index number) const {
   return {addresses.triangles() ? Kind::triangle : Kind::quad, t.first(at.face)};
 }
 
+void LimitMap::Parts::check_points(const Points& points, const char* what) const {
+  if (points.cols() != 3 || points.rows() != level.topology().num_vertices())
+    throw InvalidParameter(std::string(what) + " need a point of three coordinates for each vertex");
+}
+
+Points LimitMap::Parts::points_of_pieces(const Points& points, const char* what) const {
+  check_points(points, what);
+  return prepared ? Points(prepared->S * points) : points;
+}
+
 const LimitMap::Parts::Pieces& LimitMap::Parts::pieces() const {
   return pieces_.get([this] { return found_pieces(); });
 }

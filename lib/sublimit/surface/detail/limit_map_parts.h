@@ -141,6 +141,14 @@ struct LimitMap::Parts {
       return local;
     }
   };
+  /// Throws unless points are in space, one for each vertex of `level`.
+  /// @param what  needs them, in the message: "boxes"
+  /// @throws InvalidParameter  an array of another shape
+  void check_points(const Points& points, const char* what) const;
+  /// Returns the points of the level that has the pieces: those of `level`, prepared if it is.
+  /// @throws as check_points
+  Points points_of_pieces(const Points& points, const char* what) const;
+
   /// Returns types and points of all pieces, computed on first use.
   const Pieces& pieces() const;
   Index num_pieces() const {
