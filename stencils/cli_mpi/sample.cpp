@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/jobs/sample_job.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::cli_mpi {
 namespace {
@@ -29,8 +29,9 @@ void check(const SampleRequest& request, bool has_seed) {
     throw InvalidOption("--clamp is for --at IN.csv; no other places are outside the domain");
   if (request.columns.curvature && request.columns.derivatives < 2)
     throw InvalidOption("--curvature needs --derivatives 2");
-  if (file_extension(request.output) != ".csv")
-    throw InvalidOption(request.output.string() + ": samples are written as .csv");
+  if (!all_formats().writes(request.output, contents::rows))
+    throw InvalidOption(request.output.string() + ": samples are written as " +
+                        all_formats().writers_in_words({contents::rows}, "or"));
 }
 
 void sample(const Ranks& ranks, const SampleOptions& options) {

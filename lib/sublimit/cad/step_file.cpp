@@ -9,7 +9,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/cad/limit_model.h"
 #include "sublimit/cad/patch_model.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/formats.h"
 
 namespace sublimit {
 namespace {
@@ -32,7 +32,7 @@ LimitModel model_of(const LimitSurface& surface, const LimitModelOptions& option
 
 StepFile write_model(const BoundaryModel& model, const std::filesystem::path& path, const CadFileMaker& make) {
   if (model.faces.empty()) throw InvalidMesh("no faces to write");
-  const CadFile made = make(model, path.stem().string(), file_extension(path) != ".brep");
+  const CadFile made = make(model, path.stem().string(), io_formats().writes(path, contents::step));
   AtomicFile file(path);
   file.write(made.bytes);
   file.commit();
@@ -45,9 +45,9 @@ StepFile write_model(const BoundaryModel& model, const std::filesystem::path& pa
 }  // namespace
 
 void check_step(const std::filesystem::path& path, const StepOptions& options) {
-  const std::string extension = file_extension(path);
-  if (extension != ".step" && extension != ".stp" && extension != ".brep")
-    throw InvalidOption(path.string() + ": CAD files are .step, .stp or .brep, not '" + extension + "'");
+  if (!io_formats().writes(path, contents::cad))
+    throw InvalidOption(path.string() + ": CAD files are " + io_formats().writers_in_words({contents::cad}, "or") +
+                        ", not '" + file_extension(path) + "'");
   if (options.tolerance && !(*options.tolerance > 0 && std::isfinite(*options.tolerance)))
     throw InvalidParameter("tolerance is " + format_number(*options.tolerance) +
                            "; it should be a length, more than 0");

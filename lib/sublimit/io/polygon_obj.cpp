@@ -5,7 +5,7 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/formats.h"
 #include "sublimit/io/detail/obj_indices.h"
 #include "sublimit/io/detail/obj_keywords.h"
 #include "sublimit/io/detail/polygon_files.h"
@@ -97,24 +97,24 @@ ControlPolygon parse_polygon_obj(std::string_view text, std::string_view name) {
 }
 
 ControlPolygon read_polygon(const std::filesystem::path& path, bool tangents) {
-  const std::string extension = file_extension(path);
-  if (extension == ".csv") return parse_polygon_csv(read_file(path), path.string(), tangents);
-  if (extension == ".obj" && tangents)
-    throw FormatError(
-        path.string() +
-        ": points with tangents or derivatives are expected; give them as a .csv with columns x,y,tx,ty or "
-        "x,y,z,tx,ty,tz");
-  if (extension == ".obj") return parse_polygon_obj(read_file(path), path.string());
+  if (const FileFormat* const format = io_formats().reader(path, contents::polygons)) {
+    if (tangents && !io_formats().reads(path, contents::tangents))
+      throw FormatError(path.string() + ": points with tangents or derivatives are expected; give them as a " +
+                        io_formats().readers_in_words({contents::tangents}, "or") +
+                        " with columns x,y,tx,ty or x,y,z,tx,ty,tz");
+    return format->parse_polygon(read_file(path), path.string(), tangents);
+  }
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status) || std::filesystem::is_directory(status)) read_file(path);
-  throw FormatError(path.string() + ": unknown kind of polygon '" + extension + "'; .csv and .obj (lines) can be read");
+  throw FormatError(path.string() + ": unknown kind of polygon '" + file_extension(path) + "'; " +
+                    io_formats().readers_in_words({contents::tangents, contents::polygons}, "and") + " can be read");
 }
 
 std::string format_polygon_obj(const ControlPolygon& polygon) {
   if (polygon.dimension() > 3)
     throw InvalidParameter("an OBJ has points of 3 coordinates, not " + std::to_string(polygon.dimension()) +
-                           "; write a .csv");
+                           "; write a " + io_formats().writers_in_words({contents::tangents}, "or"));
   if (!polygon.points.allFinite()) throw InvalidMesh("points that are not finite cannot be written");
   std::string out;
   for (Index i = 0; i < polygon.num_points(); ++i) {
@@ -137,7 +137,8 @@ std::string format_polygon_obj(const ControlPolygon& polygon) {
 }
 
 void write_polygon(const std::filesystem::path& path, const ControlPolygon& polygon) {
-  const std::string text = file_extension(path) == ".obj" ? format_polygon_obj(polygon) : format_polygon_csv(polygon);
+  const FileFormat* const format = io_formats().writer(path, contents::polygons);
+  const std::string text = format ? format->format_polygon(polygon) : format_polygon_csv(polygon);
   AtomicFile file(path);
   file.write(text);
   file.commit();

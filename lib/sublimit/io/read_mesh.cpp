@@ -1,28 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/io/read_mesh.h"
 
-#include <string>
 #include <system_error>
 
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
-#include "sublimit/io/detail/obj.h"
-#include "sublimit/io/detail/off.h"
-#include "sublimit/io/detail/ply.h"
+#include "sublimit/io/detail/formats.h"
 
 namespace sublimit {
 
 Mesh read_mesh(const std::filesystem::path& path) {
-  const std::string extension = file_extension(path);
-  if (extension == ".obj") return read_obj(path);
-  if (extension == ".ply") return read_ply(path);
-  if (extension == ".off") return read_off(path);
+  if (const FileFormat* const format = io_formats().reader(path, contents::meshes)) return format->read_mesh(path);
   // What is no file at all is better told so than that its name is wrong.
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status) || std::filesystem::is_directory(status)) read_file(path);
-  throw FormatError(path.string() + ": unknown kind of mesh '" + extension + "'; .obj, .ply and .off can be read");
+  throw FormatError(path.string() + ": unknown kind of mesh '" + file_extension(path) + "'; " +
+                    io_formats().readers_in_words({contents::meshes}, "and") + " can be read");
 }
 
 }  // namespace sublimit

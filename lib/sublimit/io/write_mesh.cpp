@@ -9,9 +9,7 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
-#include "sublimit/io/detail/obj.h"
-#include "sublimit/io/detail/ply.h"
+#include "sublimit/io/detail/formats.h"
 #include "sublimit/mesh/detail/check_mesh.h"
 
 namespace sublimit {
@@ -133,10 +131,11 @@ void check_output(const Mesh& mesh, const std::string& name) {
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
                 const std::function<void(std::int64_t)>& progress) {
-  const std::string extension = file_extension(path);
-  if (extension == ".obj") return write_obj(path, mesh, progress);
-  if (extension == ".ply") return write_ply(path, mesh, progress);
-  throw InvalidOption(path.string() + ": meshes are written as .obj or .ply, not as '" + extension + "'");
+  if (const FileFormat* const format = io_formats().writer(path, contents::meshes))
+    return format->write_mesh(path, mesh, progress);
+  throw InvalidOption(path.string() + ": meshes are written as " +
+                      io_formats().writers_in_words({contents::meshes}, "or") + ", not as '" + file_extension(path) +
+                      "'");
 }
 
 }  // namespace sublimit

@@ -12,13 +12,13 @@
 #include "sublimit/base/error.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/report/analysis/claims_json.h"
 #include "sublimit/report/analysis/exports.h"
 #include "sublimit/report/analysis/regular_json.h"
 #include "sublimit/report/analysis/scheme_report.h"
 #include "sublimit/report/asset/asset_json.h"
 #include "sublimit/report/page/page.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/json/numbers.h"
 #include "support/common.h"
 #include "support/free_form.h"
@@ -265,9 +265,9 @@ int analyze_shapes(const AnalyzeOptions& options, const Source& source) {
 int analyze(const AnalyzeOptions& options) {
   limit_threads(options.common);
   limit_memory(options.memory_limit);
-  if (!options.page.empty()) check_output_path(options.page, {".html", ".htm"});
-  if (!options.picture.empty()) check_output_path(options.picture, {".svg"});
-  if (!options.json.empty()) check_output_path(options.json, {".json"});
+  if (!options.page.empty()) check_output_path(options.page, all_formats().writers({contents::pages}));
+  if (!options.picture.empty()) check_output_path(options.picture, all_formats().writers({contents::pictures}));
+  if (!options.json.empty()) check_output_path(options.json, all_formats().writers({contents::reports}));
   if (!options.json.empty() && !options.common.mesh.empty())
     check_not_sidecar("--json", options.json, options.common.mesh);
   if (std::error_code ignored; !options.json.empty() && options.common.scheme.empty() &&
@@ -277,7 +277,7 @@ int analyze(const AnalyzeOptions& options) {
   if (jobs > 1) throw InvalidOption("a mesh or curve, --mask and --sweep are jobs of their own; give one of them");
   if (options.has("--mask")) return refuse_others(options, "a mask"), analyze_mask(options);
   if (options.has("--sweep")) return refuse_others(options, "sweeps"), analyze_sweep(options);
-  const bool is_curve = file_extension(options.common.mesh) == ".csv";
+  const bool is_curve = all_formats().reads(options.common.mesh, contents::rows);
   if (is_curve) return refuse_others(options, "a curve"), analyze_curve(options);
   if (options.common.mesh.empty() && options.common.scheme.empty())
     throw InvalidOption("name a scheme with -s, or all; `sublimit schemes` lists them");

@@ -9,13 +9,13 @@
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
 #include "sublimit/eval/file/table_file.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/stencils/bake/detail/applied_points.h"
 #include "sublimit/stencils/bake/detail/table_info.h"
 #include "sublimit/stencils/bake/detail/table_mesh.h"
 #include "sublimit/stencils/files/frames.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/npy.h"
 #include "support/common.h"
 #include "support/free_form.h"
@@ -53,9 +53,9 @@ void check_cage(const ApplyOptions& options, const TableInfo& info, std::int64_t
 
 /// Points of a table's control points: of a table of patches, columns of a file's free-form surfaces.
 FrameReader frames_of(const ApplyOptions& options, const TableInfo& info) {
-  const std::string extension = file_extension(options.points);
-  if (info.scheme != free_form_scheme || (extension != ".obj" && extension != ".json"))
-    return FrameReader(options.points);
+  const bool is_shapes = all_formats().reads(options.points, contents::free_form) ||
+                         all_formats().reads(options.points, contents::recipes);
+  if (info.scheme != free_form_scheme || !is_shapes) return FrameReader(options.points);
   Common common = options.common;
   common.mesh = options.points;
   LoadedPatches found = load_patches(load_source(common, {"apply", {SourceKind::patches}}));
@@ -160,14 +160,15 @@ void write_one(const ApplyOptions& options, const BakedTable<Real>& table, const
   std::vector<std::string> names = frames.columns();
   if (table.info.rational) names.pop_back();
   if (std::ranges::any_of(poles, [](std::uint8_t p) { return p != 0; })) applied.set_poles(std::move(poles));
-  if (file_extension(options.output) == ".csv") {
+  if (all_formats().writes(options.output, contents::rows)) {
     applied.write_csv(options.output, names, values, progress.bytes_written());
     return;
   }
   Mesh mesh = applied.mesh(faces_of(table), values);
-  if (mesh.normals.rows() > 0 && file_extension(options.output) == ".obj")  // which leaves out those that do not exist
+  if (mesh.normals.rows() > 0 &&
+      all_formats().holds(options.output, MeshField::corner_normals))  // which leaves out those that do not exist
     for (const Index v : mesh.face_vertices) mesh.face_normals.push_back(mesh.normals.row(v).isZero(0) ? -1 : v);
-  if (file_extension(options.output) == ".obj") add_channels(mesh, table);  // a .ply has no place for them
+  if (all_formats().holds(options.output, MeshField::face_varying)) add_channels(mesh, table);
   write_mesh(options.output, mesh, progress.bytes_written());
 }
 
@@ -194,9 +195,9 @@ Applied apply_table(const ApplyOptions& options, const BakedTable<Real>& table, 
   const int channels = frames.num_channels() - (rational ? 1 : 0);  // of results
   check_columns(options, table.info, frames);
   check_cage(options, table.info, t.num_control_points(), frames);
-  const bool to_array = file_extension(options.output) == ".npy";
+  const bool to_array = all_formats().writes(options.output, contents::arrays);
   if (!to_array) check_one_frame(options, frames);
-  if (!to_array && file_extension(options.output) != ".csv" && channels != 3)
+  if (!to_array && !all_formats().writes(options.output, contents::rows) && channels != 3)
     throw InvalidOption(fmt::format("{} has {} channels and a mesh has x, y, z; write an .npy or .csv", options.points,
                                     frames.num_channels()));
   const double numbers = double(t.quantities()) * double(t.num_points()) * channels;
@@ -235,7 +236,7 @@ Applied apply_table(const ApplyOptions& options, const BakedTable<Real>& table, 
 }
 
 int run(const ApplyOptions& options) {
-  check_output_path(options.output, {".obj", ".ply", ".npy", ".csv"});
+  check_output_path(options.output, all_formats().writers({contents::meshes, contents::arrays, contents::rows}));
   if (options.device && !options.gpu)
     throw InvalidOption(
         fmt::format("--device {} is for --gpu; give both, or neither to apply the table on the CPU", *options.device));

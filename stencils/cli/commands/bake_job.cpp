@@ -15,6 +15,7 @@
 #include "sublimit/stencils/files/patch_places.h"
 #include "sublimit/stencils/files/place_files.h"
 #include "sublimit/stencils/files/sample_files.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/rule_of_word.h"
 #include "sublimit/stencils/patterns/pattern_file.h"
 #include "support/free_form.h"
@@ -175,7 +176,7 @@ BakeOutcome bake_free_form(const BakeJob& job, const Source& source, Progress& p
 }  // namespace
 
 BakeOutcome bake_table(const BakeJob& job, Dictionaries& dictionaries, Progress& progress, bool keep) {
-  if (!job.is_plan) check_output_path(job.output, {".safetensors"});
+  if (!job.is_plan) check_output_path(job.output, all_formats().writers({contents::tables}));
   const Source source = load_source(job.common, {"bake", {SourceKind::mesh, SourceKind::patches}});
   if (source.kind == SourceKind::patches) return bake_free_form(job, source, progress, keep);
   std::unique_ptr<SampleReader> reader;  // a wrong header is told before a large mesh is read

@@ -10,6 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/parts/parted_surface.h"
 #include "sublimit/stencils/files/closest_files.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "support/memory_limit.h"
 
 namespace sublimit::cli {
@@ -51,7 +52,7 @@ ClosestPoints search_of(const PartedSurface& surface, const Points& queries, con
 
 int run(const ClosestOptions& options) {
   const Source source = load_source(options.common, {"closest", {SourceKind::mesh, SourceKind::patches}});
-  check_output_path(options.output, {".csv"});
+  check_output_path(options.output, all_formats().writers({contents::rows}));
   const ClosestPointOptions search = search_options(options);
   Progress progress(options.common.quiet);
   progress.step("reading " + options.points);

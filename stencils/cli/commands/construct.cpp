@@ -5,6 +5,7 @@
 
 #include "support/common.h"
 #include "support/recipes.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/recipes/detail/net_file.h"
 
 namespace sublimit::cli {
@@ -20,7 +21,7 @@ std::string counted(size_t count, const char* what) {
 }
 
 int run(const ConstructJob& job) {
-  check_output_path(job.output, {".obj"});
+  check_output_path(job.output, all_formats().writers({contents::free_form}));
   const std::vector<Recipe> recipes = read_recipes(job.common.mesh);
   if (!job.common.quiet) tell_notes(recipes);
   const FreeForm nets = net_file(recipes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/eval/file/table_file.h"
 #include "sublimit/stencils/files/export_table.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "support/common.h"
 
 namespace sublimit::cli {
@@ -15,7 +16,7 @@ int write_export(const ExportOptions& options) {
   // A directory is made, and may be named with a slash at its end.
   const std::filesystem::path output = options.output;
   const bool is_directory = !output.has_extension();
-  if (!is_directory) check_output_path(options.output, {".npz", ".mtx"});
+  if (!is_directory) check_output_path(options.output, all_formats().writers({contents::table_rows}));
   limit_threads(options.common);
   Progress progress(options.common.quiet);
   progress.step("reading " + options.table);

@@ -7,10 +7,10 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/patches/detail/patch_levels.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/matrix_market.h"
 #include "support/free_form.h"
 
@@ -44,7 +44,8 @@ Points euclidean(const PatchSet& patches, const Points& columns) {
   for (Eigen::Index i = 0; i < columns.rows(); ++i) {
     if (columns(i, 3) == 0)
       throw InvalidMesh("point " + format_number(i) +
-                        " of the net has the weight 0: a direction, which a mesh cannot hold; write an .obj");
+                        " of the net has the weight 0: a direction, which a mesh cannot hold; write an " +
+                        all_formats().writers_in_words({contents::free_form}, "or"));
     points.row(i) = columns.row(i).head(3) / columns(i, 3);
   }
   return points;
@@ -54,8 +55,8 @@ Points euclidean(const PatchSet& patches, const Points& columns) {
 
 void refine_free_form(const Source& source, int levels, const std::string& output, const std::string& matrix) {
   const Common& common = source.common;
-  check_output_path(output, {".obj", ".ply"});
-  if (!matrix.empty()) check_output_path(matrix, {".mtx"});
+  check_output_path(output, all_formats().writers({contents::free_form, contents::meshes}));
+  if (!matrix.empty()) check_output_path(matrix, all_formats().writers({contents::matrices}));
   if (levels < 1 || levels > 20) throw InvalidOption(fmt::format("-l {}: 1 to 20 levels are right", levels));
   limit_threads(common);
   Progress progress(common.quiet);
@@ -67,7 +68,7 @@ void refine_free_form(const Source& source, int levels, const std::string& outpu
       write_matrix_market(matrix, *nets.P);
     }
     progress.step("writing " + output);
-    if (file_extension(output) == ".obj") {
+    if (all_formats().writes(output, contents::free_form)) {
       write_free_form(output, to_free_form(nets.patches, nets.columns));
     } else {
       PatchSet::Net net = nets.patches.net();
@@ -82,7 +83,7 @@ void refine_free_form(const Source& source, int levels, const std::string& outpu
 
 void limit_free_form(const Source& source, int levels, const std::string& output, bool normals) {
   const Common& common = source.common;
-  check_output_path(output, {".obj", ".ply"});
+  check_output_path(output, all_formats().writers({contents::meshes}));
   if (levels < 0 || levels > 20) throw InvalidOption(fmt::format("-l {}: 0 to 20 levels are right", levels));
   limit_threads(common);
   Progress progress(common.quiet);
@@ -100,7 +101,7 @@ void limit_free_form(const Source& source, int levels, const std::string& output
     mesh.face_sizes = std::move(net.sizes);
     mesh.face_vertices = std::move(net.vertices);
     if (normals) mesh.normals = at.normal;
-    if (normals && file_extension(output) == ".obj")
+    if (normals && all_formats().holds(output, MeshField::corner_normals))
       for (const Index v : mesh.face_vertices) mesh.face_normals.push_back(at.normal.row(v).isZero(0) ? -1 : v);
     progress.step("writing " + output);
     write_mesh(output, mesh, progress.bytes_written());

@@ -16,6 +16,7 @@
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/stencils/files/field_samples.h"
 #include "sublimit/stencils/files/level_files.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/picture/picture_mesh.h"
 #include "sublimit/stencils/recipes/detail/field_recipe.h"
 
@@ -120,7 +121,7 @@ void write_whole(const std::string& path, const std::string& text) {
 }
 
 int sample_places(const ImplicitJob& job, const FieldJob& field, Progress& progress) {
-  check_output_path(job.output, {".csv"});
+  check_output_path(job.output, all_formats().writers({contents::rows}));
   progress.step("evaluating");
   const std::int64_t count = write_field_samples(job.at, job.output, *field.field, [&](std::int64_t done) {
     progress.note(fmt::format("evaluating, {} places done", done));
@@ -131,10 +132,10 @@ int sample_places(const ImplicitJob& job, const FieldJob& field, Progress& progr
 }
 
 int make_mesh(const ImplicitJob& job, const FieldJob& field, Progress& progress) {
-  check_output_path(job.output, {".obj"});
-  if (!job.report.empty()) check_output_path(job.report, {".json"});
+  check_output_path(job.output, all_formats().holders(MeshField::creases));
+  if (!job.report.empty()) check_output_path(job.report, all_formats().writers({contents::reports}));
   if (!job.report.empty()) check_not_sidecar("--report", job.report, job.output);
-  if (!job.picture.empty()) check_output_path(job.picture, {".svg"});
+  if (!job.picture.empty()) check_output_path(job.picture, all_formats().writers({contents::pictures}));
   const Scheme<double> scheme = scheme_or_throw(job.common.scheme, given_options(job.common));
   LevelSetOptions options{.box = field.box, .cells = job.cells.value_or(field.cells)};
   options.tolerance = job.tolerance.value_or(0);

@@ -10,6 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/parts/parted_surface.h"
 #include "sublimit/stencils/files/ray_files.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::cli {
 namespace {
@@ -33,7 +34,7 @@ RayOptions ray_options(const IntersectOptions& options) {
 
 int run(const IntersectOptions& options) {
   const Source source = load_source(options.common, {"intersect", {SourceKind::mesh, SourceKind::patches}});
-  check_output_path(options.output, {".csv"});
+  check_output_path(options.output, all_formats().writers({contents::rows}));
   const RayOptions search = ray_options(options);
   Progress progress(options.common.quiet);
   progress.step("reading " + options.rays);

@@ -7,8 +7,8 @@
 #include "support/free_form.h"
 #include "support/normal_surfaces.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/stencils/files/level_files.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::cli {
 namespace {
@@ -21,7 +21,7 @@ struct LimitOptions {
 };
 
 int limit_vertices(const LimitOptions& options) {
-  check_output_path(options.output, {".obj", ".ply"});
+  check_output_path(options.output, all_formats().writers({contents::meshes}));
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
   std::vector<Level> levels;
@@ -42,10 +42,10 @@ int limit_vertices(const LimitOptions& options) {
   const Points points = refined_points(levels, loaded.mesh.positions);
   const LimitPoints at_limit = limit_points(limit, levels.back().topology(), points);
   progress.step("writing " + options.output);
-  const bool obj = file_extension(options.output) == ".obj";
+  const bool per_corner = all_formats().holds(options.output, MeshField::corner_normals);
   Mesh out = limit_mesh(levels.back(), limit, at_limit,
                         !options.normals ? Normals::none
-                        : obj            ? Normals::per_corner
+                        : per_corner     ? Normals::per_corner
                                          : Normals::per_vertex);
   if (!channel.empty()) add_channel(out, channel.back(), loaded.mesh.face_varying[0].name, limit_values);
   write_mesh(options.output, out, progress.bytes_written());

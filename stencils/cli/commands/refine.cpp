@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <vector>
+
 #include "sublimit/base/error.h"
 #include "sublimit/stencils/files/level_files.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/matrix_market.h"
 #include "support/curves.h"
 #include "support/free_form.h"
@@ -16,9 +21,26 @@ struct RefineOptions {
   bool no_tags = false;
 };
 
+/// Tells which tags and texture coordinates the output has no place for.
+/// @param has_channel  there are texture coordinates, in `out` or not
+void tell_left_out(const RefineOptions& options, const Mesh& out, bool has_channel) {
+  using enum MeshField;
+  const FileFormat* const format = all_formats().find(options.output);
+  std::vector<MeshField> fields = left_out(*format, out);
+  std::erase_if(fields, [](MeshField field) {
+    return !(field == creases || field == corners || field == knot_intervals || field == holes);
+  });
+  if (has_channel && !all_formats().holds(options.output, face_varying)) fields.push_back(face_varying);
+  if (options.common.quiet || fields.empty()) return;
+  std::vector<std::string> names;
+  for (const MeshField field : fields) names.emplace_back(name_of(field));
+  fmt::print(stderr, "sublimit: note: {}: {} has no place for {}; written as {} the mesh keeps them\n", options.output,
+             format->name, listed(names, "and"), listed(all_formats().holders(fields.front()), "or"));
+}
+
 int refine_mesh(const RefineOptions& options) {
-  check_output_path(options.output, {".obj", ".ply"});
-  if (!options.matrix.empty()) check_output_path(options.matrix, {".mtx"});
+  check_output_path(options.output, all_formats().writers({contents::meshes}));
+  if (!options.matrix.empty()) check_output_path(options.matrix, all_formats().writers({contents::matrices}));
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
   std::vector<FaceVaryingLevel> channel;
@@ -51,6 +73,8 @@ int refine_mesh(const RefineOptions& options) {
     if (!options.no_tags) out.face_varying_interpolation = loaded.face_varying;
   }
   write_mesh(options.output, out, progress.bytes_written());
+  progress.step("");
+  tell_left_out(options, out, !loaded.mesh.face_varying.empty());
   return 0;
 }
 

@@ -18,6 +18,7 @@
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/stencils/files/random_samples.h"
 #include "sublimit/stencils/files/sample_files.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::cli {
 namespace {
@@ -197,7 +198,7 @@ int run(const SampleOptions& options) {
   if (job.curves && !source.has_shapes())
     throw InvalidOption("--curves is for free-form files and recipes, without -s SCHEME");
   if (job.curves || source.has_curves_alone()) return sample_patch_curves(job, source);
-  check_output_path(job.output, {".csv"});
+  check_output_path(job.output, all_formats().writers({contents::rows}));
   std::unique_ptr<SampleReader> reader;  // a wrong header is told before a large mesh is read
   const bool own_places = source.kind == SourceKind::patches && !job.at.empty() && has_own_places(job.at, "patch");
   if (own_places && job.clamp) throw InvalidOption("--clamp is for places face,u,v; " + job.at + " has patch,u,v");

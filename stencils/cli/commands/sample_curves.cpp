@@ -20,6 +20,7 @@
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/stencils/files/patch_places.h"
 #include "sublimit/stencils/formats/csv_rows.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "support/curves.h"
 #include "support/free_form.h"
 
@@ -134,7 +135,7 @@ std::int64_t write(const SampleJob& job, Index dimension, const NextPlaces& sour
 void check_curve_samples(const SampleJob& job) {
   if (job.curvature)
     throw InvalidOption("--curvature is for surfaces; --derivatives 2 has what the curvature of a curve is made of");
-  check_output_path(job.output, {".csv"});
+  check_output_path(job.output, all_formats().writers({contents::rows}));
 }
 
 /// Places of --at, if it is given.

@@ -6,7 +6,7 @@
 #include "support/loaded_library.h"
 #include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::cli {
 namespace {
@@ -24,8 +24,8 @@ void write_whole_file(const std::string& path, const std::string& text, Progress
 }  // namespace
 
 CadFileEntry* prepare_step(const StepJob& job) {
-  check_output_path(job.output, {".step", ".stp", ".brep"});
-  if (!job.report.empty()) check_output_path(job.report, {".json"});
+  check_output_path(job.output, all_formats().writers({contents::cad}));
+  if (!job.report.empty()) check_output_path(job.report, all_formats().writers({contents::reports}));
   if (!job.report.empty()) check_not_sidecar("--report", job.report, job.common.mesh);
   return cad_writer();
 }
@@ -33,7 +33,8 @@ CadFileEntry* prepare_step(const StepJob& job) {
 CadFile cad_file_of(const StepJob& job, CadFileEntry* entry, const BoundaryModel& model, Progress& progress) {
   progress.step("making a shape");
   CadFile file;
-  entry(model, std::filesystem::path(job.output).stem().string(), file_extension(job.output) != ".brep", file);
+  entry(model, std::filesystem::path(job.output).stem().string(), all_formats().writes(job.output, contents::step),
+        file);
   return file;
 }
 

@@ -9,8 +9,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/eval/file/detail/verify_table.h"
 #include "sublimit/eval/file/table_file.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/report/analysis/verify_report.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "support/common.h"
 #include "support/input_files.h"
 
@@ -97,10 +97,11 @@ int verify_report(const VerifyOptions& options) {
 
 int verify(const VerifyOptions& options) {
   limit_threads(options.common);
-  constexpr std::array alike{FileKind::unknown, FileKind::empty, FileKind::safetensors, FileKind::json};
-  if (const FileKind kind = file_kind(options.table); std::ranges::find(alike, kind) == alike.end())
+  const FileKind kind = file_kind(options.table);
+  const bool may_be = !kind.format || reads(*kind.format, contents::tables) || reads(*kind.format, contents::reports);
+  if (kind.state == FileKind::State::directory || !may_be)
     return print_findings(options.table, {fmt::format("it is {}, neither a table nor a report", name_of(kind))});
-  if (file_extension(options.table) == ".json") return verify_report(options);
+  if (all_formats().reads(options.table, contents::reports)) return verify_report(options);
   Progress progress(options.common.quiet);
   progress.step("verifying " + options.table);
   Verification found;

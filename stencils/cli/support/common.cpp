@@ -14,9 +14,9 @@
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/source/limit_status.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/rule_of_word.h"
 #include "sublimit/stencils/formats/sidecar.h"
 #include "support/curves.h"
@@ -109,7 +109,7 @@ double distance_option(const std::string& option, const std::string& text, doubl
 }
 
 bool has_channel(const Loaded& loaded, const std::string& output) {
-  return !loaded.mesh.face_varying.empty() && file_extension(output) == ".obj";
+  return !loaded.mesh.face_varying.empty() && all_formats().holds(output, MeshField::face_varying);
 }
 std::vector<FaceVaryingLevel> refined_channel(const Common& common, const Loaded& loaded,
                                               const std::vector<Level>& levels, const std::string& output) {

@@ -4,11 +4,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <string_view>
 #include <vector>
 
 #include "sublimit/base/error.h"
@@ -16,52 +13,64 @@
 namespace sublimit::cli {
 namespace {
 
-using Kinds = std::vector<FileKind>;
+using enum FileKind::State;
 
 /// An argument or option that names a file to read.
 struct Role {
   const char* owner;  ///< the subcommand, or the program; nullptr: any that has it
   const char* name;
-  const char* takes;  ///< "a table of `sublimit bake`"
-  Kinds kinds;
+  std::string takes;  ///< in words; {}: extensions of formats with the contents
+  std::vector<Content> wanted;
+  std::vector<Content> also = {};           ///< the readers say more of these
+  std::vector<FileKind::State> other = {};  ///< directories, empty files; known: any file
 };
 
 /// The first that fits is taken.
 const std::vector<Role>& roles() {
-  using enum FileKind;
+  using namespace contents;
   static const std::vector<Role> all{
       // Whatever it is, verify answers by its verdict.
       {"verify",
        "TABLE",
        "a table of `sublimit bake` or a report of `sublimit analyze --json`",
-       {FileKind::empty, obj, ply, off, csv, json, npy, safetensors, zip, matrix_market, xml, FileKind::step, brep,
-        gltf}},
-      {nullptr, "TABLE", "a table of `sublimit bake`, .safetensors", {safetensors}},
-      {"sublimit-mpi",
-       "POINTS",
-       "points of the table's cage, .obj, .ply, .npy or .safetensors",
-       {obj, ply, npy, safetensors}},
-      {nullptr,
-       "POINTS",
-       "points of the table's cage, .obj, .ply, .off, .csv or .npy",
-       {obj, ply, off, csv, npy, json}},
-      {nullptr, "RECIPE", "recipes, .json", {json}},
-      {nullptr, "FIELD", "a field, .json", {json}},
-      {"sublimit-mpi", "MESH", "a control mesh, .obj, .ply or .safetensors", {obj, ply, safetensors}},
+       {tables, reports},
+       {},
+       {empty, known}},
+      {nullptr, "TABLE", "a table of `sublimit bake`, {}", {tables}},
+      {"sublimit-mpi", "POINTS", "points of the table's cage, {}", {mesh_parts, arrays}},
+      {nullptr, "POINTS", "points of the table's cage, {}", {meshes, rows, arrays}, {recipes}},
+      {nullptr, "RECIPE", "recipes, {}", {recipes}},
+      {nullptr, "FIELD", "a field, {}", {recipes}},
+      {"sublimit-mpi", "MESH", "a control mesh, {}", {mesh_parts}},
       // The readers say more of a polygon, a recipe or nothing in the place of a mesh.
-      {nullptr, "MESH", "a control mesh, .obj, .ply or .off", {obj, ply, off, csv, json, FileKind::empty}},
-      {nullptr, "--at", "places, .csv", {csv}},
-      {nullptr, "--rays", "rays, .csv", {csv}},
-      {nullptr, "--rates", "rates of edges, .csv", {csv}},
-      {nullptr, "--targets", "targets, .csv", {csv}},
-      {nullptr, "--pin", "vertices, as numbers or in a .csv", {csv}},
-      {nullptr, "--points", "points, .csv, .npy, .obj, .ply or .off", {csv, npy, obj, ply, off}},
-      {nullptr, "--cloud", "points, .csv, .obj, .ply or .off", {csv, obj, ply, off}},
-      {nullptr, "--tessellation", "triangles of `sublimit tessellate`, .ply", {ply}},
-      {nullptr, "--manifest", "jobs, .jsonl", {json, FileKind::empty}},  // there may be none
-      {nullptr, "--dictionary", "a dictionary that `bake` keeps, or a directory of them", {safetensors, directory}},
+      {nullptr, "MESH", "a control mesh, {}", {meshes}, {rows, recipes}, {empty}},
+      {nullptr, "--at", "places, {}", {rows}},
+      {nullptr, "--rays", "rays, {}", {rows}},
+      {nullptr, "--rates", "rates of edges, {}", {rows}},
+      {nullptr, "--targets", "targets, {}", {rows}},
+      {nullptr, "--pin", "vertices, as numbers or in a {}", {rows}},
+      {nullptr, "--points", "points, {}", {rows, arrays, meshes}},
+      {nullptr, "--cloud", "points, {}", {rows, meshes}},
+      {nullptr, "--tessellation", "triangles of `sublimit tessellate`, {}", {vertex_values}},
+      {nullptr, "--manifest", "jobs, {}", {jobs}, {}, {empty}},  // there may be none
+      {nullptr, "--dictionary", "a dictionary that `bake` keeps, or a directory of them", {tables}, {}, {directory}},
   };
   return all;
+}
+
+std::string words_of(const Role& role) {
+  return fmt::format(fmt::runtime(role.takes), listed(all_formats().readers(role.wanted), "or"));
+}
+
+bool is_taken(const Role& role, const FileKind& kind) {
+  if (std::ranges::find(role.other, kind.state) != role.other.end()) return true;
+  const auto reads_it = [&](Content content) {
+    // Formats may begin alike: what begins as a .jsonl is found as a .json.
+    return std::ranges::any_of(all_formats().rows(), [&](const FileFormat& row) {
+      return kind.format && row.name == kind.format->name && reads(row, content);
+    });
+  };
+  return std::ranges::any_of(role.wanted, reads_it) || std::ranges::any_of(role.also, reads_it);
 }
 
 /// A file that the command line names.
@@ -69,81 +78,18 @@ struct Given {
   const Role* role;
   std::string path;
   FileKind kind;
-  bool fits() const { return kind == FileKind::unknown || std::ranges::find(role->kinds, kind) != role->kinds.end(); }
-  bool fits(const Role& other) const { return std::ranges::find(other.kinds, kind) != other.kinds.end(); }
+  bool fits() const { return kind.state == unknown || is_taken(*role, kind); }
 };
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-std::string_view first_word(std::string_view line) {
-  return line.substr(0, std::min(line.find_first_of(" \t\r"), line.size()));
-}
-
-/// The first line that is not blank and no comment, as OBJ, OFF and CSV have them.
-std::string_view first_line(std::string_view text) {
-  while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
-    if (!line.empty() && line.front() != '#') return line;
-  }
-  return {};
-}
-
-template <size_t N>
-bool is_one_of(std::string_view word, const std::array<std::string_view, N>& words) {
-  return std::ranges::find(words, word) != words.end();
-}
-
-/// Fields without blanks inside and commas between: a sentence is no CSV.
-bool is_csv(std::string_view line) {
-  if (line.find(',') == std::string_view::npos) return false;
-  bool blank = false, inside = false;  // there was a blank after the field began
-  for (const char c : line) {
-    if (c == ',') {
-      blank = inside = false;
-    } else if (is_blank(c)) {
-      blank = inside;
-    } else {
-      if (blank) return false;
-      inside = true;
-    }
-  }
-  return true;
-}
-
-FileKind kind_of_text(std::string_view text) {
-  using enum FileKind;
-  constexpr std::array<std::string_view, 26> obj_words{
-      "v",   "vt",   "vn",     "vp",   "f",    "l",     "p",    "g",    "o",    "s",    "mtllib", "usemtl", "t",
-      "deg", "bmat", "cstype", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "end",    "sp",     "mg"};
-  constexpr std::array<std::string_view, 8> off_words{"OFF",   "COFF", "NOFF", "STOFF",
-                                                      "CNOFF", "4OFF", "nOFF", "STNOFF"};
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  const std::string_view line = first_line(text);
-  if (line.starts_with("%%MatrixMarket")) return matrix_market;
-  if (line.starts_with("ISO-10303-21")) return FileKind::step;
-  if (line.starts_with("DBRep_DrawableShape")) return brep;
-  if (line.starts_with('<')) return xml;
-  if (line.starts_with('{') || line.starts_with('[')) return json;
-  const std::string_view word = first_word(line);
-  if (word == "ply") return ply;
-  if (is_one_of(word, off_words)) return off;
-  if (is_one_of(word, obj_words)) return obj;
-  if (is_csv(line)) return csv;
-  return unknown;
-}
-
 /// In words of the message, without what is wrong.
-std::string argument_of(const Given& given) { return fmt::format("{} is {}", given.role->name, given.role->takes); }
+std::string argument_of(const Given& given) { return fmt::format("{} is {}", given.role->name, words_of(*given.role)); }
 
 [[noreturn]] void refuse(const Given& given, const std::vector<Given>& all) {
-  if (given.kind == FileKind::directory)
+  if (given.kind.state == directory)
     throw IoError(fmt::format("{}: it is a directory; name a file in it ({})", given.path, argument_of(given)));
-  if (given.kind == FileKind::empty) throw FormatError(fmt::format("{}: empty; {}", given.path, argument_of(given)));
+  if (given.kind.state == empty) throw FormatError(fmt::format("{}: empty; {}", given.path, argument_of(given)));
   for (const Given& other : all)
-    if (&other != &given && given.fits(*other.role) && other.fits(*given.role))
+    if (&other != &given && is_taken(*other.role, given.kind) && is_taken(*given.role, other.kind))
       throw FormatError(fmt::format("{} is {} and {} is {}: they are swapped; {}, and {}", given.path,
                                     name_of(given.kind), other.path, name_of(other.kind), argument_of(given),
                                     argument_of(other)));
@@ -163,58 +109,28 @@ const Role* role_of(const CLI::App& command, const CLI::Option& option) {
 }  // namespace
 
 FileKind file_kind(const std::string& path) {
-  using enum FileKind;
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (std::filesystem::is_directory(status)) return directory;
-  if (!std::filesystem::is_regular_file(status)) return unknown;
+  if (std::filesystem::is_directory(status)) return {directory};
+  if (!std::filesystem::is_regular_file(status)) return {};
   std::ifstream file(path, std::ios::binary);
-  if (!file.is_open()) return unknown;  // its reader says why
+  if (!file.is_open()) return {};  // its reader says why
   std::string text(4096, '\0');
   file.read(text.data(), std::ssize(text));
   text.resize(size_t(file.gcount()));
-  if (text.empty()) return file.bad() ? unknown : FileKind::empty;
-  if (text.starts_with("\x93NUMPY")) return npy;
-  if (text.starts_with("PK\x03\x04")) return zip;
-  if (text.starts_with("glTF")) return gltf;
-  // The length of a header that begins with a brace, in eight bytes.
-  if (text.size() > 8 && text[8] == '{' && text[7] == '\0' && text[6] == '\0') return safetensors;
-  return kind_of_text(text);
+  if (text.empty()) return {file.bad() ? unknown : empty};
+  const FileFormat* const format = all_formats().recognized(text);
+  return {format ? known : unknown, format};
 }
 
-const char* name_of(FileKind kind) {
-  using enum FileKind;
-  switch (kind) {
+std::string name_of(const FileKind& kind) {
+  switch (kind.state) {
     case directory:
       return "a directory";
-    case FileKind::empty:
+    case empty:
       return "an empty file";
-    case obj:
-      return "an OBJ file";
-    case ply:
-      return "a PLY file";
-    case off:
-      return "an OFF file";
-    case csv:
-      return "a CSV file";
-    case json:
-      return "a JSON file";
-    case npy:
-      return "a NumPy array";
-    case safetensors:
-      return "a table (safetensors)";
-    case zip:
-      return "a zip archive";
-    case matrix_market:
-      return "a Matrix Market file";
-    case xml:
-      return "an XML or HTML file";
-    case FileKind::step:
-      return "a STEP file";
-    case brep:
-      return "a BREP file";
-    case gltf:
-      return "a glTF file";
+    case known:
+      return std::string(kind.format->name);
     case unknown:
       break;
   }
@@ -223,26 +139,16 @@ const char* name_of(FileKind kind) {
 
 std::string input_meaning(const CLI::App& command, const CLI::Option& option) {
   const Role* role = role_of(command, option);
-  return role ? role->takes : "";
+  return role ? words_of(*role) : "";
 }
 
 std::vector<std::string> input_extensions(const CLI::App& command, const CLI::Option& option) {
-  using enum FileKind;
-  std::vector<std::string> extensions;
-  const Role* role = role_of(command, option);
-  if (!role) return extensions;
-  const auto add = [&](std::initializer_list<const char*> names) {
-    extensions.insert(extensions.end(), names.begin(), names.end());
-  };
-  for (const FileKind kind : role->kinds) {
-    if (kind == obj) add({"obj"});
-    if (kind == ply) add({"ply"});
-    if (kind == off) add({"off"});
-    if (kind == csv) add({"csv"});
-    if (kind == json) add({"json", "jsonl"});
-    if (kind == npy) add({"npy"});
-    if (kind == safetensors) add({"safetensors"});
-  }
+  const Role* const role = role_of(command, option);
+  if (!role) return {};
+  std::vector<Content> all = role->wanted;
+  all.insert(all.end(), role->also.begin(), role->also.end());
+  std::vector<std::string> extensions = all_formats().readers(all);
+  for (std::string& extension : extensions) extension.erase(0, 1);
   return extensions;
 }
 

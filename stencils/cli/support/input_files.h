@@ -6,33 +6,27 @@
 #include <string>
 #include <vector>
 
+#include "sublimit/stencils/formats/formats.h"
+
 namespace sublimit::cli {
 
-enum class FileKind {
-  unknown,
-  directory,
-  empty,
-  obj,
-  ply,
-  off,
-  csv,
-  json,
-  npy,
-  safetensors,
-  zip,
-  matrix_market,
-  xml,
-  step,
-  brep,
-  gltf
+/// What a file is by its first bytes.
+struct FileKind {
+  enum class State {
+    unknown,  ///< a missing file, text that no format begins with, a pipe or device: those can be read only once
+    directory,
+    empty,
+    known
+  };
+  State state = State::unknown;
+  const FileFormat* format = nullptr;  ///< if known
 };
 
-/// Returns the kind of a regular file or a directory. Unknown are missing files, text that no known format
-/// begins with, and pipes and devices, which are not read because their bytes can be read only once.
+/// Returns the kind of a regular file or a directory.
 FileKind file_kind(const std::string& path);
 
 /// Returns a kind as words for messages: "an OBJ file".
-const char* name_of(FileKind kind);
+std::string name_of(const FileKind& kind);
 
 /// Returns the kind of file that an argument or option takes: "a control mesh, .obj, .ply or .off"; empty if it does
 /// not name a file to read.

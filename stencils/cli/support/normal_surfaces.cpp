@@ -12,9 +12,9 @@
 #include "support/recipes.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/obj_normals.h"
 #include "sublimit/io/write_mesh.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::cli {
 namespace {
@@ -27,7 +27,9 @@ GeometricNormalScheme normal_scheme(const Common& common) {
 Points given_normals(const Common& common) {
   const SchemeOptions options = given_options(common);
   const auto found = options.find("normals");
-  if ((found != options.end() && found->second == "estimated") || file_extension(common.mesh) != ".obj") return {};
+  if ((found != options.end() && found->second == "estimated") ||
+      !all_formats().reads(common.mesh, contents::vertex_normals))
+    return {};
   return read_obj_normals(common.mesh);
 }
 
@@ -137,7 +139,7 @@ std::string why_no_normal_surface(const Common& common, const Mesh& mesh) {
 }
 
 int write_normal_surface(const NormalJob& job) {
-  check_output_path(job.output, {".obj", ".ply"});
+  check_output_path(job.output, all_formats().writers({contents::meshes}));
   const Common& common = job.source->common;
   if (!job.matrix.empty())
     throw InvalidOption(fmt::format("cannot write {}: {}: it is not linear: there is no matrix", job.matrix,

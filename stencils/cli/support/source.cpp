@@ -12,7 +12,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::cli {
 namespace {
@@ -62,7 +62,7 @@ SourceKind kind_of_recipes(const std::vector<Recipe>& recipes) {
 
 /// Whether an .obj has free-form curves or surfaces; not of a pipe.
 bool has_free_form(const std::string& path) {
-  if (file_extension(path) != ".obj") return false;
+  if (!all_formats().reads(path, contents::free_form)) return false;
   // A pipe can be read only once: the reader of meshes does that.
   std::error_code ignored;  // of a name too long, say: its reader tells
   if (const auto status = std::filesystem::status(path, ignored);
@@ -95,7 +95,7 @@ void load_without_scheme(Source& source, const Takes& takes) {
       takes.kinds, [](SourceKind kind) { return kind == SourceKind::patches || kind == SourceKind::normals; });
   if (!any_shapes && !takes.scheme_optional)
     throw InvalidOption(fmt::format("-s SCHEME is missing: {} (`sublimit schemes` lists them)", taken_by(takes)));
-  if (file_extension(path) == ".json") {
+  if (all_formats().reads(path, contents::recipes)) {
     source.recipes = read_recipes(path);
     source.kind = kind_of_recipes(*source.recipes);
   } else if (std::error_code ignored; takes.scheme_optional && !std::filesystem::exists(path, ignored)) {

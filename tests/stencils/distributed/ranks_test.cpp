@@ -14,6 +14,7 @@
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/ply.h"
 #include "sublimit/io/write_mesh.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/npy.h"
 
 namespace sublimit::testing {
@@ -125,6 +126,44 @@ void write_tensors(const std::filesystem::path& path, const Mesh& mesh) {
                   tensor<std::int32_t>("creases", creases, {std::ssize(sharpness), 2}),
                   tensor<float>("crease_sharpness", sharpness, {std::ssize(sharpness)})};
   write_safetensors(path, std::move(file));
+}
+
+TEST(Ranks, ReadAndWriteTheFormatsThatSaySo) {
+  const TemporaryDirectory directory;
+  const Mesh mesh = torus(4, 3);
+  size_t read = 0, written = 0;
+  for (const FileFormat& row : all_formats().rows()) {
+    const std::string name = (directory / "m").string() + std::string(row.extensions[0]);
+    SCOPED_TRACE(name);
+    const bool is_read = all_formats().reads(name, contents::mesh_parts);
+    if (all_formats().writes(name, contents::meshes))
+      write_mesh(name, mesh);
+    else if (is_read)
+      write_tensors(name, mesh);
+    else
+      write_obj(name, mesh);
+    const RanksRun info = run_ranks(2, "info " + name);
+    EXPECT_EQ(info.status, is_read ? 0 : 3) << info.err;
+    if (!is_read) {
+      EXPECT_NE(info.error().find("'; .obj, binary .ply and .safetensors can be read"), std::string::npos) << info.err;
+    }
+    const bool is_written =
+        all_formats().writes(name, contents::mesh_parts) || all_formats().writes(name, contents::arrays);
+    const std::string cage = (directory / "m.obj").string(),
+                      out = (directory / "out").string() + std::string(row.extensions[0]);
+    const RanksRun refine = run_ranks(2, "refine " + cage + " -s catmull-clark -l 1 -o " + out);
+    EXPECT_EQ(refine.status, is_written ? 0 : 2) << refine.err;
+    if (is_written) {
+      const FileFormat* const found = all_formats().recognized(read_file(out));
+      ASSERT_TRUE(found);
+      EXPECT_EQ(found->name, row.name);
+    } else {
+      EXPECT_NE(refine.error().find("'; .npy and .ply can be written"), std::string::npos) << refine.err;
+    }
+    read += is_read, written += is_written;
+  }
+  EXPECT_EQ(read, 3u);
+  EXPECT_EQ(written, 2u);
 }
 
 TEST(Ranks, ReadTheirBytesOfEveryKindOfFile) {

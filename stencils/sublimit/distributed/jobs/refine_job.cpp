@@ -10,7 +10,7 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/mesh/points_file.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/npy.h"
 
 namespace sublimit {
@@ -88,7 +88,7 @@ std::vector<std::byte> in_bytes(const FaceList& faces) {
 RefinedFile write_refined(const Ranks& ranks, const SpreadJob& job, const BakeRequest& request, Division division,
                           const std::filesystem::path& output, const Told& told) {
   ranks.together([&] { check_points_output(output); });
-  const bool is_ply = file_extension(output) == ".ply";
+  const bool is_ply = all_formats().writes(output, contents::mesh_parts);
   if (division.parts == 0) division.parts = fitting_parts(ranks, job, request.level);
   told("dividing");
   Patterns patterns(job.scheme);

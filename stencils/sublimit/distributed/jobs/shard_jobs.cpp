@@ -11,7 +11,7 @@
 #include "sublimit/distributed/mesh/points_file.h"
 #include "sublimit/distributed/shards/shard_faces.h"
 #include "sublimit/distributed/shards/spread_frames.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/npy.h"
 #include "sublimit/stencils/formats/rule_of_word.h"
 
@@ -192,7 +192,7 @@ std::int64_t apply_shards(const Ranks& ranks, const std::filesystem::path& direc
     triangulate(ranks, cut);
     faces = in_hexadecimal(faces_hash(ranks, cut));
   }
-  const bool is_ply = file_extension(output) == ".ply";
+  const bool is_ply = all_formats().writes(output, contents::mesh_parts);
   ranks.together([&] {
     if (frames.runs().size() != manifest.all.num_control_points)
       throw InvalidMesh(fmt::format("{}: {} points; {} is of a mesh of {}", points.string(), frames.runs().size(),

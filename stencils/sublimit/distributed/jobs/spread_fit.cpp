@@ -14,7 +14,7 @@
 #include "sublimit/distributed/mesh/points_file.h"
 #include "sublimit/distributed/shards/spread_rows.h"
 #include "sublimit/fit/scattered_fit.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/npy.h"
 #include "sublimit/stencils/patterns/patterns.h"
 #include "sublimit/surface/limit_map.h"
@@ -320,7 +320,7 @@ SpreadFit fit(const Ranks& ranks, const SpreadJob& job, SpreadTargets& file, con
 void write_control_points(const Ranks& ranks, const SpreadMesh& mesh, std::span<const double> points,
                           const std::filesystem::path& path) {
   const std::int64_t num_points = mesh.vertices.size(), point_size = 3 * std::int64_t{sizeof(double)};
-  const bool has_faces = file_extension(path) == ".ply";
+  const bool has_faces = all_formats().writes(path, contents::mesh_parts);
   std::string header, faces;
   ranks.together([&] {
     check_points_output(path);

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/distributed/mesh/points_file.h"
 
+#include <algorithm>
+
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/ply_header.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit {
 
 void check_points_output(const std::filesystem::path& output) {
-  const std::string extension = file_extension(output);
-  if (extension != ".npy" && extension != ".ply")
-    throw InvalidOption(output.string() + ": unknown kind of output '" + extension + "'; .npy and .ply can be written");
+  const std::vector<Content> taken{contents::arrays, contents::mesh_parts};
+  if (std::ranges::none_of(taken, [&](Content content) { return all_formats().writes(output, content); }))
+    throw InvalidOption(output.string() + ": unknown kind of output '" + file_extension(output) + "'; " +
+                        all_formats().writers_in_words(taken, "and") + " can be written");
 }
 
 std::string ply_header(std::int64_t num_points, std::optional<std::int64_t> num_faces) {

@@ -9,7 +9,7 @@
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/mesh/spread_readers.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/sidecar.h"
 
 namespace sublimit {
@@ -79,18 +79,19 @@ void take_tags(const Ranks& ranks, const Mesh& from, SpreadMesh& mesh) {
 }
 
 SpreadMesh read_spread_mesh(const Ranks& ranks, const std::filesystem::path& path) {
-  const std::string name = path.string(), extension = file_extension(path);
+  const std::string name = path.string();
   MappedFile file;
   ranks.together([&] {
     file = map_file(path);
-    if (extension != ".obj" && extension != ".ply" && extension != ".safetensors")
-      throw FormatError(name + ": unknown kind of mesh '" + extension +
-                        "'; .obj, binary .ply and .safetensors can be read");
+    if (!all_formats().reads(path, contents::mesh_parts))
+      throw FormatError(name + ": unknown kind of mesh '" + file_extension(path) + "'; " +
+                        all_formats().readers_in_words({contents::mesh_parts}, "and") + " can be read");
   });
   check_alike(ranks, std::to_string(file.bytes.size()), "bytes in " + name);
-  SpreadMesh mesh = extension == ".obj"   ? read_obj_parts(ranks, text_of(file.bytes), name)
-                    : extension == ".ply" ? read_ply_parts(ranks, text_of(file.bytes), name)
-                                          : read_tensor_parts(ranks, file.bytes, name);
+  SpreadMesh mesh = all_formats().reads(path, contents::tables) ? read_tensor_parts(ranks, file.bytes, name)
+                    : all_formats().reads(path, contents::vertex_values)
+                        ? read_ply_parts(ranks, text_of(file.bytes), name)
+                        : read_obj_parts(ranks, text_of(file.bytes), name);
   read_sidecar(ranks, path, mesh);
   check(ranks, mesh, name);
   return mesh;

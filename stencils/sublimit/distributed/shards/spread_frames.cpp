@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit {
 
 SpreadFrames::SpreadFrames(const Ranks& ranks, const std::filesystem::path& path)
     : ranks_(ranks), name_(path.string()) {
-  if (file_extension(path) != ".npy") {
+  if (!all_formats().reads(path, contents::arrays)) {
     mesh_ = read_spread_mesh(ranks, path);
     runs_ = mesh_->vertices;
     return;

@@ -16,7 +16,7 @@
 #include "sublimit/base/detail/followed_links.h"
 #include "sublimit/base/error.h"
 #include "sublimit/eval/file/detail/table_tensors.h"
-#include "sublimit/io/detail/file_extension.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/matrix_market.h"
 #include "sublimit/stencils/formats/npy.h"
 #include "sublimit/stencils/formats/npz.h"
@@ -71,14 +71,17 @@ void write_directory(const std::filesystem::path& path, const Safetensors& file)
 }  // namespace
 
 void export_table(const std::filesystem::path& path, const AnyTable& table) {
-  const std::string extension = file_extension(path);
+  const bool is_directory = !path.has_extension();
+  if (!is_directory && !all_formats().writes(path, contents::table_rows))
+    throw InvalidParameter(path.string() + ": exports are " +
+                           all_formats().writers_in_words({contents::table_rows}, "") +
+                           ", or a directory of .npy, whose name has no extension");
   std::visit(
       [&](const auto& baked) {
-        if (extension == ".npz") return write_scipy_csr(path, baked.table.expanded());
-        if (extension == ".mtx") return write_matrix_market(path, baked.table.expanded());
-        if (extension.empty()) return write_directory(path, TableTensors(baked).file());
-        throw InvalidParameter(path.string() + ": exports are .npz (SciPy), .mtx (Matrix Market), or a directory of " +
-                               ".npy, whose name has no extension");
+        if (is_directory) return write_directory(path, TableTensors(baked).file());
+        const auto rows = baked.table.expanded();
+        if (all_formats().writes(path, contents::matrices)) return write_matrix_market(path, rows);
+        write_scipy_csr(path, rows);
       },
       table);
 }

@@ -7,9 +7,9 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/polygon_files.h"
 #include "sublimit/io/read_mesh.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/npy.h"
 
 namespace sublimit {
@@ -32,16 +32,15 @@ bool read_numbers(std::ifstream& file, std::span<T> out) {
 }  // namespace
 
 FrameReader::FrameReader(const std::filesystem::path& path) : path_(path) {
-  const std::string extension = file_extension(path);
-  if (extension == ".obj" || extension == ".ply" || extension == ".off") {
+  if (all_formats().reads(path, contents::meshes)) {
     mesh_ = read_mesh(path);
     points_ = mesh_->positions;
     columns_ = names_of_channels(3);
-  } else if (extension == ".csv") {
+  } else if (all_formats().reads(path, contents::polygons)) {
     ControlPolygon read = read_polygon(path);
     points_ = std::move(read.points);
     columns_ = read.columns.empty() ? names_of_channels(points_.cols()) : std::move(read.columns);
-  } else if (extension == ".npy") {
+  } else if (all_formats().reads(path, contents::arrays)) {
     // Its header alone: of a long animation that is mapped, memory would hold all frames that were read.
     const NpyArray array(path);
     const std::vector<std::int64_t>& shape = array.shape();
@@ -60,7 +59,9 @@ FrameReader::FrameReader(const std::filesystem::path& path) : path_(path) {
     array_.seekg(static_cast<std::streamoff>(std::filesystem::file_size(path) - bytes));
     return;
   } else {
-    throw FormatError(path.string() + ": points come from .obj, .ply, .off, .csv or .npy files");
+    throw FormatError(path.string() + ": points come from " +
+                      all_formats().readers_in_words({contents::meshes, contents::tangents, contents::arrays}, "or") +
+                      " files");
   }
   num_points_ = points_.rows();
 }

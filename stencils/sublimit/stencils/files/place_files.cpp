@@ -11,10 +11,10 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/ply.h"
 #include "sublimit/stencils/files/sample_files.h"
 #include "sublimit/stencils/formats/csv_fields.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit {
 namespace {
@@ -49,9 +49,10 @@ void add_places(Mesh& mesh, std::span<const Place> places) {
 }
 
 PlacedFaces read_placed_faces(const std::filesystem::path& path) {
-  if (file_extension(path) != ".ply")
-    throw InvalidOption(path.string() +
-                        ": triangles with places are read from a .ply; `sublimit tessellate -o FILE.ply` writes it");
+  if (!all_formats().reads(path, contents::vertex_values))
+    throw InvalidOption(path.string() + ": triangles with places are read from a " +
+                        all_formats().readers_in_words({contents::vertex_values}, "or") +
+                        "; `sublimit tessellate -o FILE.ply` writes it");
   Mesh read = read_ply(path, properties);
   const std::vector<Mesh::VertexValues>& found = read.vertex_values;
   if (found.size() != properties.size())

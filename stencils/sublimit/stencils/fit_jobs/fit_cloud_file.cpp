@@ -3,10 +3,10 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/stencils/fit_jobs/fit_job.h"
 #include "sublimit/stencils/formats/csv_rows.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit {
 namespace {
@@ -32,7 +32,7 @@ Cloud from_csv(const std::string& path) {
 }  // namespace
 
 Cloud read_cloud(const std::string& path, std::optional<Index> samples, unsigned seed) {
-  if (file_extension(path) == ".csv") {
+  if (all_formats().reads(path, contents::rows)) {
     if (samples) throw InvalidOption("--samples is for clouds from meshes; a .csv has no faces to take points from");
     return from_csv(path);
   }

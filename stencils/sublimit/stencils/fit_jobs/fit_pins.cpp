@@ -5,9 +5,9 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/stencils/fit_jobs/fit_job.h"
 #include "sublimit/stencils/formats/csv_rows.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit {
 namespace {
@@ -57,7 +57,7 @@ Pins read_pins(const std::string& text, Index num_vertices) {
                                 [](unsigned char c) { return std::isdigit(c) || c == ',' || c == '-' || c == ' '; });
   if (list) return from_list(text, pinned);
   std::error_code ignored;
-  if (file_extension(text) != ".csv" && !std::filesystem::exists(text, ignored))
+  if (!all_formats().reads(text, contents::rows) && !std::filesystem::exists(text, ignored))
     throw InvalidOption("--pin " + text + ": neither a list of vertices, as 3,7, nor a file");
   return from_file(text, pinned);
 }

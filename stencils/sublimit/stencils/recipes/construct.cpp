@@ -5,9 +5,9 @@
 #include <variant>
 
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/free_form.h"
 #include "sublimit/patches/detail/free_form_patches.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/recipes/detail/net_file.h"
 #include "sublimit/stencils/recipes/detail/recipe_sources.h"
 
@@ -56,8 +56,10 @@ Curves Construction::curves() const {
 }
 
 void Construction::write(const std::filesystem::path& path) const {
-  if (file_extension(path) != ".obj")
-    throw InvalidOption(path.string() + ": exact nets are written as .obj, not as '" + file_extension(path) + "'");
+  if (!all_formats().writes(path, contents::free_form))
+    throw InvalidOption(path.string() + ": exact nets are written as " +
+                        all_formats().writers_in_words({contents::free_form}, "or") + ", not as '" +
+                        file_extension(path) + "'");
   if (const auto* const recipes = std::get_if<std::vector<Recipe>>(&made_->shapes))
     return write_free_form(path, net_file(*recipes));
   write_free_form(path, std::get<FreeForm>(made_->shapes));
@@ -68,7 +70,7 @@ Construction construct(const std::string& recipe) {
   const size_t first = recipe.find_first_not_of(" \t\r\n");
   const bool is_json = first != std::string::npos && recipe[first] == '{';
   made.name = is_json ? "recipe" : recipe;
-  if (!is_json && file_extension(recipe) != ".json") {
+  if (!is_json && !all_formats().reads(recipe, contents::recipes)) {
     FreeForm shapes = read_free_form(recipe);
     for (const auto& surface : shapes.surfaces) made.names.push_back("line " + std::to_string(surface.line));
     for (const auto& curve : shapes.curves) made.names.push_back("line " + std::to_string(curve.line));
