@@ -11,6 +11,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/stencils/files/level_files.h"
 #include "sublimit/stencils/fit_jobs/fit_picture.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::cli {
 namespace {
@@ -117,7 +118,7 @@ int fit_linear(const FitOptions& options, Progress& progress,
   return 0;
 }
 
-int fit_to_cloud(const FitOptions& options, Progress& progress) {
+Cloud checked_cloud(const FitOptions& options, Progress& progress) {
   refuse_others(options, "cloud", "clouds");
   if (options.has("--seed") && !options.samples) throw InvalidOption("--seed is for --samples N; leave it out");
   if (options.samples && *options.samples < 1)
@@ -125,7 +126,11 @@ int fit_to_cloud(const FitOptions& options, Progress& progress) {
   if (options.settings.iterations < 0)
     throw InvalidOption(fmt::format("--iterations {}: it should be 0 or more", options.settings.iterations));
   progress.step("reading " + options.cloud);
-  const Cloud cloud = read_cloud(options.cloud, options.samples, options.seed);
+  return read_cloud(options.cloud, options.samples, options.seed);
+}
+
+int fit_to_cloud(const FitOptions& options, Progress& progress) {
+  const Cloud cloud = checked_cloud(options, progress);
   return fit_linear(options, progress, [&](const Loaded& loaded, const FitSettings& settings) {
     return fit_near_cloud(*loaded.scheme, loaded.mesh, cloud, settings);
   });
@@ -158,17 +163,27 @@ int fit_geometric(const FitOptions& options, const FitTargets& targets, const Ge
   return 0;
 }
 
+/// Patches, to targets at places or to a cloud.
 int fit_patch_points(const FitOptions& options, const Source& source, Progress& progress) {
-  if (!options.cloud.empty())
-    throw InvalidOption("--cloud is for meshes; free-form surfaces take --targets IN.csv with places");
-  refuse_others(options, "places", "free-form surfaces");
   if (!options.picture.empty()) throw InvalidOption("--picture is for meshes; leave it out");
-  check_output_path(options.output, {".obj"});
-  const FitTargets targets = read_fit_targets(options.targets);
+  check_output_path(options.output, all_formats().writers({contents::free_form}));
+  FitColumns fit_columns;
+  if (!options.cloud.empty()) {
+    fit_columns = [cloud = checked_cloud(options, progress)](const PatchSet& patches, const Points& columns,
+                                                             const FitSettings& settings) {
+      return fit_patches_near_cloud(patches, columns, cloud, settings);
+    };
+  } else {
+    refuse_others(options, "places", "free-form surfaces");
+    fit_columns = [targets = read_fit_targets(options.targets)](const PatchSet& patches, const Points& columns,
+                                                                const FitSettings& settings) {
+      return fit_patches(patches, columns, targets, settings);
+    };
+  }
   FitSettings settings = options.settings;
   settings.progress = [&](const std::string& what) { progress.note(what); };
   FreeFormFit fit;
-  naming_mesh(options.common, [&] { fit = fit_free_form(source, targets, settings, options.pin, progress); });
+  naming_mesh(options.common, [&] { fit = fit_free_form(source, fit_columns, settings, options.pin, progress); });
   write_outputs(
       options, [&] { write_free_form(options.output, fit.shapes); }, "", fit.report, progress);
   return 0;
@@ -185,12 +200,12 @@ int run(const FitOptions& options) {
       throw InvalidOption(fmt::format("{} {}: it should be a number, 0 or more", name, weight));
   if (options.settings.levels < 0)
     throw InvalidOption(fmt::format("--levels {}: it should be 0 or more", options.settings.levels));
-  check_output_path(options.output, {".obj", ".ply"});
-  if (!options.report.empty()) check_output_path(options.report, {".json"});
+  check_output_path(options.output, all_formats().writers({contents::meshes}));
+  if (!options.report.empty()) check_output_path(options.report, all_formats().writers({contents::reports}));
   if (!options.report.empty())
     for (const std::string& mesh : {options.common.mesh, options.output})
       check_not_sidecar("--report", options.report, mesh);
-  if (!options.picture.empty()) check_output_path(options.picture, {".svg"});
+  if (!options.picture.empty()) check_output_path(options.picture, all_formats().writers({contents::pictures}));
   Progress progress(options.common.quiet);
   if (options.cloud.empty() == options.targets.empty())
     throw InvalidOption(
@@ -269,12 +284,13 @@ Command add_fit(CLI::App& app) {
       "  sublimit fit cage.obj --targets normals.csv -s doo-sabin --construct -o fitted.obj\n"
       "  sublimit fit mesh.obj --targets curvatures.csv -s torus-pieces -l 4 -o surface.obj --picture fit.svg\n"
       "  sublimit fit nurbs.obj --targets places.csv --thin-plate 1e-6 -o fitted.obj\n"
+      "  sublimit fit nurbs.obj --cloud scan.ply --thin-plate 1e-6 -o fitted.obj\n"
       "\nIN.csv begins with one of these lines:\n"
       "  vertex,x,y,z[,nx,ny,nz[,k1,k2,d1x,d1y,d1z]]   the limit of a vertex of MESH, counted from 0; a normal of any\n"
       "                                                length, or three empty fields\n"
       "  face,u,v,x,y,z[,weight]                       the limit at a place, as in `sublimit sample`: least squares\n"
       "  patch,u,v,x,y,z[,weight]                      the same of free-form surfaces, by their own parameters\n"
-      "\nA cloud should lie near the limit of MESH, which is its first guess.\n"
+      "\nA cloud should lie near the limit of MESH, or near free-form surfaces, which are its first guess.\n"
       "\nPoints alone are as many conditions as there are control points, which may depend on each other (a cube's do);\n"
       "normals are more. Then MESH is refined, and of all control points that meet the targets those nearest to it are\n"
       "taken, or the fairest ones (--thin-plate, --membrane). Under schemes that keep vertices the first ones of OUT are\n"

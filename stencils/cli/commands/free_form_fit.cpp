@@ -7,8 +7,8 @@
 
 namespace sublimit::cli {
 
-FreeFormFit fit_free_form(const Source& source, const FitTargets& targets, FitSettings settings, const std::string& pin,
-                          Progress& progress) {
+FreeFormFit fit_free_form(const Source& source, const FitColumns& fit_columns, FitSettings settings,
+                          const std::string& pin, Progress& progress) {
   const Common& common = source.common;
   if (source.recipes)
     throw InvalidOption("fits are of control points, and recipes have other data; `sublimit construct " + common.mesh +
@@ -23,7 +23,7 @@ FreeFormFit fit_free_form(const Source& source, const FitTargets& targets, FitSe
                               "not; put them in files of their own, or write `cstype rat` for all");
   if (!pin.empty()) settings.pins = read_pins(pin, count);
   progress.step("fitting");
-  auto [columns, report] = fit_patches(found.patches, found.columns, targets, settings);
+  auto [columns, report] = fit_columns(found.patches, found.columns, settings);
   fit.shapes.vertices = columns.leftCols(3);
   if (columns.cols() == 4) fit.shapes.vertices.array().colwise() /= columns.col(3).array();
   fit.report = std::move(report);

@@ -12,6 +12,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/free_form_counts.h"
 #include "sublimit/patches/detail/free_form_patches.h"
+#include "sublimit/stencils/jobs/detail/mesh_info_json.h"
 
 namespace sublimit::cli {
 namespace {
@@ -156,9 +157,12 @@ Json as_json(const Common& common, const FreeForm& shapes) {
 
 }  // namespace
 
-void print_free_form(const Common& common, const FreeForm& shapes, bool json) {
+void print_free_form(const Common& common, const FreeForm& shapes, bool json,
+                     const std::optional<LimitIntegrals>& integrals) {
   if (json) {
-    fmt::print("{}\n", as_json(common, shapes).dump(2));
+    nlohmann::ordered_json all = as_json(common, shapes);
+    if (integrals) all["limit"] = to_json(*integrals);
+    fmt::print("{}\n", all.dump(2));
     return;
   }
   std::optional<FreeFormPatches> patches;  // first: what is wrong with them is told alone

@@ -2,6 +2,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "support/common.h"
 #include "support/free_form.h"
@@ -50,13 +52,32 @@ void print(const MeshInfo& info, const std::string& name) {
   if (info.faults.empty()) fmt::print("  no faults: a consistently wound manifold\n");
 }
 
+LimitIntegrals patch_integrals(const Source& source) {
+  limit_threads(source.common);
+  Progress progress(source.common.quiet);
+  LoadedPatches loaded = load_patches(source);
+  LimitIntegrals integrals;
+  naming_mesh(source.common, [&] {
+    progress.step("integrating over the patches");
+    integrals = limit_integrals(Patches(std::move(loaded.patches), std::move(loaded.columns)));
+  });
+  progress.step("");
+  return integrals;
+}
+
 int run(const Common& common, bool as_json, bool limit) {
   const Takes any{"info", {SourceKind::mesh, SourceKind::normals, SourceKind::patches}, true};
-  const Source source = load_source(common, limit ? Takes{"info --limit", {SourceKind::mesh}} : any);
-  if (source.recipes) return print_recipes(source, as_json), 0;
-  if (source.shapes) {
-    print_free_form(common, *source.shapes, as_json);
-    if (source.shapes->num_faces == 0 || as_json) return 0;
+  const Takes integrable{"info --limit", {SourceKind::mesh, SourceKind::patches}};
+  const Source source = load_source(common, limit ? integrable : any);
+  if (source.has_shapes()) {
+    std::optional<LimitIntegrals> integrals;
+    if (limit) integrals = patch_integrals(source);
+    if (source.recipes)
+      print_recipes(source, as_json, integrals);
+    else
+      print_free_form(common, *source.shapes, as_json, integrals);
+    if (integrals && !as_json) print(*integrals);
+    if (limit || as_json || source.recipes || source.shapes->num_faces == 0) return 0;
   }
   Common quiet = common;
   quiet.quiet = true;
@@ -95,12 +116,12 @@ Command add_info(CLI::App& app) {
   add_mesh(*command, *common, false);
   command->add_flag(
       "--limit", *limit,
-      "Area of the limit; of closed surfaces volume, centroid and inertia of the solid; errors where more "
-      "than rounding is left (with -s)");
+      "Area of the limit (with -s), or of patches; of closed surfaces volume, centroid and inertia of the solid; errors "
+      "where more than rounding is left");
   command->add_flag("--json", *as_json, "As JSON");
   command->footer(
       "Examples:\n  sublimit info cage.obj\n  sublimit info cage.obj -s loop --json\n"
-      "  sublimit info cage.obj -s catmull-clark --limit\n"
+      "  sublimit info cage.obj -s catmull-clark --limit\n  sublimit info nurbs.obj --limit\n"
       "\nOf an .obj with free-form curves and surfaces: bases, degrees, knots, continuity, weights, collapsed sides, trims.\n"
       "Of recipes (.json): kinds, faces or segments, control points, whether there is an exact net.");
   return [=] { return run(*common, *as_json, *limit); };

@@ -78,10 +78,7 @@ std::vector<NamedPatch> load_surfaces(const Source& source, Progress& progress) 
 double diagonal_of(const std::vector<NamedPatch>& patches) {
   Eigen::AlignedBox3d box;
   for (const NamedPatch& patch : patches)
-    for (Eigen::Index i = 0; i < patch.columns.rows(); ++i) {
-      const double w = patch.columns.cols() == 4 ? patch.columns(i, 3) : 1;
-      if (w != 0) box.extend(Eigen::Vector3d(patch.columns.row(i).head(3) / w));
-    }
+    for (const auto& point : points_in_space(patch.columns).rowwise()) box.extend(Eigen::Vector3d(point));
   return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 

@@ -9,10 +9,10 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/stencils/files/place_files.h"
 #include "sublimit/stencils/files/rate_files.h"
 #include "sublimit/stencils/files/tessellation_mesh.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/glb.h"
 #include "sublimit/stencils/formats/split_mesh.h"
 #include "sublimit/stencils/formats/vtu.h"
@@ -20,6 +20,7 @@
 #include "sublimit/tessellation/detail/bezier_cells.h"
 #include "sublimit/tessellation/detail/rated_tessellation.h"
 #include "sublimit/tessellation/detail/triangle_shapes.h"
+#include "support/free_form.h"
 #include "support/source.h"
 
 namespace sublimit::cli {
@@ -87,11 +88,12 @@ void add_texture(const TessellateOptions& options, const Loaded& loaded, const L
   }
 }
 
-void print_summary(const TessellateOptions& options, const Tessellation& made) {
+/// @param surface  what triangles are near
+void print_summary(const TessellateOptions& options, const Tessellation& made, const char* surface) {
   const TriangleShapes shapes = triangle_shapes(made);
   fmt::print("{}: {} triangles, {} points", options.output, made.triangles.size(), made.places.size());
   if (!options.chord.empty())
-    fmt::print(" in {} cells, at most {} from the limit\n", made.cells, format_number(made.bound));
+    fmt::print(" in {} cells, at most {} from the {}\n", made.cells, format_number(made.bound), surface);
   else
     fmt::print(" by the rates of edges\n");
   if (made.triangles.empty()) return;
@@ -101,32 +103,100 @@ void print_summary(const TessellateOptions& options, const Tessellation& made) {
   fmt::print("\n");
 }
 
-int run(const TessellateOptions& options) {
-  (void)load_source(options.common, {"tessellate", {SourceKind::mesh}});
+/// Checks options that need no surface.
+/// @throws InvalidOption  a wrong value, options that exclude each other, another format
+TessellationOptions checked(const TessellateOptions& options, bool is_mesh) {
   TessellationOptions wanted{.angle = radians(options.angle), .max_triangles = most_triangles(options.most)};
   if (options.chord.empty() && options.rates.empty())
     throw InvalidOption("--chord D, a distance, or --rates RATES.csv, segments of edges, is needed");
   if (options.chord.empty() && !options.angle.empty()) throw InvalidOption("--angle goes with --chord");
   if (!options.chord.empty())
     distance_option("--chord", options.chord, 1);  // a wrong number is told before the mesh is read
-  check_output_path(options.output, {".obj", ".ply", ".glb", ".vtu"});
-  const std::string extension = file_extension(options.output);
-  if (extension == ".vtu") check_triangle_options(options);
-  if (extension == ".glb" && options.face_ids)
-    throw InvalidOption("--face-ids: glTF has no values of triangles; .ply, .obj and .vtu have");
-  if (!options.places.empty()) check_output_path(options.places, {".csv"});
+  check_output_path(options.output, all_formats().writers({contents::meshes, contents::viewed, contents::cells}));
+  const bool are_cells = all_formats().writes(options.output, contents::cells);
+  if (!is_mesh && !options.rates.empty())
+    throw InvalidOption("--rates is for meshes: it has segments of their edges; --chord is for patches too");
+  if (!is_mesh && are_cells)
+    throw InvalidOption(fmt::format("{}: cells of patches are not written as {}; {} are right", options.output,
+                                    listed(all_formats().writers({contents::cells}), "or"),
+                                    listed(all_formats().writers({contents::meshes, contents::viewed}), "and")));
+  if (are_cells) check_triangle_options(options);
+  if (options.face_ids && !all_formats().holds(options.output, MeshField::face_ids))
+    throw InvalidOption("--face-ids: glTF has no values of triangles; " +
+                        listed(all_formats().holders(MeshField::face_ids), "and") + " have");
+  if (!options.places.empty()) check_output_path(options.places, all_formats().writers({contents::rows}));
+  // Viewers shade a .glb flat without normals.
+  wanted.normals = options.normals || all_formats().writes(options.output, contents::viewed);
+  return wanted;
+}
+
+/// The chord as a length.
+/// @param control  control points, #points x 3
+double chord_of(const TessellateOptions& options, const Points& control) {
+  if (control.rows() == 0) return 0;
+  const double diagonal = (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm();
+  const double chord = distance_option("--chord", options.chord, diagonal);
+  if (!(chord > 0)) throw InvalidMesh(options.common.mesh + ": no extent that --chord could be a part of");
+  return chord;
+}
+
+/// Writes the triangles, and their places if these are asked for.
+/// @param surface  what they are near
+void write_triangles(const TessellateOptions& options, const Tessellation& made, Mesh out, const char* surface,
+                     Progress& progress) {
+  progress.step("writing " + options.output);
+  std::vector<Place> places = made.places;  // in the order of the file's vertices
+  if (!all_formats().holds(options.output, MeshField::corner_normals) &&
+      !(out.face_varying.empty() && out.face_normals.empty())) {
+    SplitMesh split = split_mesh(std::move(out));
+    out = std::move(split.mesh);
+    places = places_of(split, made);
+  }
+  if (all_formats().writes(options.output, contents::vertex_values)) add_places(out, places);
+  if (all_formats().writes(options.output, contents::viewed))
+    write_glb(options.output, out, progress.bytes_written());
+  else
+    write_mesh(options.output, out, progress.bytes_written());
+  if (!options.places.empty()) write_places(options.places, places);
+  progress.step("");
+  if (!options.common.quiet) print_summary(options, made, surface);
+}
+
+int tessellate_patches(const TessellateOptions& options, TessellationOptions wanted, const Source& source) {
+  limit_threads(options.common);
+  Progress progress(options.common.quiet);
+  LoadedPatches loaded = load_patches(source);
+  const Patches patches(std::move(loaded.patches), std::move(loaded.columns));
+  wanted.chord = chord_of(options, points_in_space(patches.points()));
+  Tessellation made;
+  Mesh out;
+  naming_mesh(options.common, [&] {
+    progress.step("tessellating");
+    made = tessellate(patches, wanted);
+    out = tessellation_mesh(made);
+    if (options.face_ids)
+      for (const Tessellation::Triangle& t : made.triangles) out.face_ids.push_back(t.face);
+    if (wanted.normals)
+      add_normals(out, made, std::move(made.normals), !all_formats().holds(options.output, MeshField::corner_normals));
+  });
+  write_triangles(options, made, std::move(out), "patches", progress);
+  return 0;
+}
+
+int run(const TessellateOptions& options) {
+  const Source source = load_source(options.common, {"tessellate", {SourceKind::mesh, SourceKind::patches}});
+  const bool is_mesh = source.kind == SourceKind::mesh;
+  TessellationOptions wanted = checked(options, is_mesh);
+  if (!is_mesh) return tessellate_patches(options, wanted, source);
   Progress progress(options.common.quiet);
   const Loaded loaded = load(options.common, progress);
   const Points& control = loaded.mesh.positions;
   const bool by_rates = options.chord.empty();
-  if (control.rows() > 0 && !by_rates)
-    wanted.chord =
-        distance_option("--chord", options.chord, (control.colwise().maxCoeff() - control.colwise().minCoeff()).norm());
-  if (!by_rates && !(wanted.chord > 0))
-    throw InvalidMesh(options.common.mesh + ": no extent that --chord could be a part of");
+  if (!by_rates) wanted.chord = chord_of(options, control);
   std::optional<LimitMap> surface;
   naming_mesh(options.common, [&] { surface.emplace(*loaded.scheme, loaded.mesh, loaded.rules); });
-  if (extension == ".vtu") return write_cells(options, *surface, control, wanted, progress);
+  if (all_formats().writes(options.output, contents::cells))
+    return write_cells(options, *surface, control, wanted, progress);
   if (!options.rates.empty()) wanted.rates = read_edge_rates(options.rates, surface->level().topology());
   Tessellation made;
   Mesh out;
@@ -134,26 +204,13 @@ int run(const TessellateOptions& options) {
     progress.step("tessellating");
     made = by_rates ? tessellate_by_rates(*surface, control, wanted.rates, wanted.max_triangles)
                     : tessellate(*surface, control, wanted);
-    out = tessellation_mesh(made, *surface, options.face_ids);
+    out = options.face_ids ? tessellation_mesh(made, surface->addresses()) : tessellation_mesh(made);
     add_texture(options, loaded, *surface, made, out);
-    // Viewers shade a .glb flat without normals.
-    if (options.normals || extension == ".glb") add_normals(out, made, *surface, control, extension != ".obj");
+    if (wanted.normals && by_rates) made.normals = surface->evaluate(control, corner_places(made), 1).normal;
+    if (wanted.normals)
+      add_normals(out, made, std::move(made.normals), !all_formats().holds(options.output, MeshField::corner_normals));
   });
-  progress.step("writing " + options.output);
-  std::vector<Place> places = made.places;  // in the order of the file's vertices
-  if (extension != ".obj" && !(out.face_varying.empty() && out.face_normals.empty())) {
-    SplitMesh split = split_mesh(std::move(out));
-    out = std::move(split.mesh);
-    places = places_of(split, made);
-  }
-  if (extension == ".ply") add_places(out, places);
-  if (extension == ".glb")
-    write_glb(options.output, out, progress.bytes_written());
-  else
-    write_mesh(options.output, out, progress.bytes_written());
-  if (!options.places.empty()) write_places(options.places, places);
-  progress.step("");
-  if (!options.common.quiet) print_summary(options, made);
+  write_triangles(options, made, std::move(out), "limit", progress);
   return 0;
 }
 
@@ -161,7 +218,7 @@ int run(const TessellateOptions& options) {
 
 Command add_tessellate(CLI::App& app) {
   auto* command =
-      app.add_subcommand("tessellate", "Make triangles within a proved distance of the limit, without cracks");
+      app.add_subcommand("tessellate", "Make triangles within a proved distance of the limit, or of patches");
   auto options = std::make_shared<TessellateOptions>();
   add_mesh(*command, options->common, false);
   command->add_option("--chord", options->chord,
@@ -195,8 +252,12 @@ Command add_tessellate(CLI::App& app) {
       "  sublimit tessellate cage.obj -s catmull-clark --chord 0.01% -o surface.vtu    exact polynomials, curved\n"
       "  sublimit tessellate cage.obj -s catmull-clark --rates rates.csv -o surface.obj\n"
       "  sublimit tessellate cage.obj -s catmull-clark --chord 1% --rates rates.csv -o surface.obj\n"
+      "  sublimit tessellate nurbs.obj --chord 0.1% -o surface.glb\n"
       "\nRates are kept by quadrilaterals and triangles; edges of other polygons have the next even number of segments.\n"
       "No distance is proved with them alone, and every scheme is taken. With --chord edges have at least so many.\n"
+      "\nPatches need no scheme: free-form .obj files and recipes. Their sides are joined where they are the same curve in\n"
+      "the same parameter, up to a thousandth of the distance; where a side lies on a part of another there may be a crack\n"
+      "of up to twice the distance.\n"
       "\nThe distance is that of points with the same parameters, bounded by second derivatives; towards extraordinary\n"
       "vertices by how far the limit is from an affine map of its parameters. Schemes without polynomials (butterfly,\n"
       "kobbelt, sqrt3), and those whose hulls are estimates (mid-edge-habib-warren), have no such bounds: `refine` or\n"

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Files of free-form curves and surfaces on the command line, which need no scheme.
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <utility>
 
 #include "support/source.h"
+#include "sublimit/integrals/limit_integrals.h"
 #include "sublimit/patches/curve_set.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/patches/patch_set.h"
@@ -31,7 +34,9 @@ struct LoadedCurves {
 LoadedCurves load_patch_curves(const Source& source);
 
 /// Prints information on free-form shapes, for `info`.
-void print_free_form(const Common& common, const FreeForm& shapes, bool json);
+/// @param integrals  over the surfaces, for JSON
+void print_free_form(const Common& common, const FreeForm& shapes, bool json,
+                     const std::optional<LimitIntegrals>& integrals);
 
 /// Runs `refine` or `limit` for the free-form surfaces of a file.
 void refine_free_form(const Source& source, int levels, const std::string& output, const std::string& matrix);
@@ -42,13 +47,16 @@ struct FreeFormFit {
   FreeForm shapes;  ///< shapes with fitted control points
   FitReport report;
 };
-/// Fits the free-form surfaces of a file to targets.
+/// Computes columns of control points, and a report, from those that a file has.
+using FitColumns = std::function<std::pair<Points, FitReport>(const PatchSet& patches, const Points& columns,
+                                                              const FitSettings& settings)>;
+/// Fits the free-form surfaces of a file.
 /// @param pin  list of control points that stay fixed
-/// @throws FormatError          a target that is not at a place of the surfaces
+/// @throws the errors of `fit`
 /// @throws InvalidOption        recipes, whose data are not control points; `pin` is not a list
 /// @throws UnsupportedTopology  surfaces whose control points are not those of the file: given by coefficients,
 ///                              or polynomial ones beside rational ones
-FreeFormFit fit_free_form(const Source& source, const FitTargets& targets, FitSettings settings, const std::string& pin,
+FreeFormFit fit_free_form(const Source& source, const FitColumns& fit, FitSettings settings, const std::string& pin,
                           Progress& progress);
 
 /// Returns the report of kind "free-form" on the curves and surfaces of a file, or of recipes.

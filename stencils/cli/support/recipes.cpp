@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/normal_surfaces.h"
+#include "sublimit/stencils/jobs/detail/mesh_info_json.h"
 
 namespace sublimit::cli {
 
@@ -80,7 +81,7 @@ void describe_normal_triangles(RecipeWords& words, const NormalSurface& surface,
 
 }  // namespace
 
-void print_recipes(const Source& source, bool json) {
+void print_recipes(const Source& source, bool json, const std::optional<LimitIntegrals>& integrals) {
   const Common& common = source.common;
   const std::vector<Recipe>& recipes = *source.recipes;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -109,7 +110,11 @@ void print_recipes(const Source& source, bool json) {
     for (const std::string& note : words.notes) text += "    note: " + note + "\n";
   }
   progress.step("");
-  if (json) text = nlohmann::ordered_json{{"file", common.mesh}, {"recipes", list}}.dump(2) + "\n";
+  if (json) {
+    nlohmann::ordered_json all{{"file", common.mesh}, {"recipes", list}};
+    if (integrals) all["limit"] = to_json(*integrals);
+    text = all.dump(2) + "\n";
+  }
   fmt::print("{}", text);
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Recipes on the command line, which need no scheme.
+#include <optional>
+
 #include "support/source.h"
+#include "sublimit/integrals/limit_integrals.h"
 
 namespace sublimit::cli {
 
@@ -16,7 +19,8 @@ enum class Sampled { curves, surfaces, normal_triangles, all_surfaces };
 void tell_left_out(const Source& source, Sampled taken);
 
 /// Prints information on recipes, for `info`.
+/// @param integrals  over the surfaces, for JSON
 /// @throws Error  as load_normal_surface
-void print_recipes(const Source& source, bool json);
+void print_recipes(const Source& source, bool json, const std::optional<LimitIntegrals>& integrals);
 
 }  // namespace sublimit::cli

@@ -117,7 +117,7 @@ TEST(CliFitFreeForm, RefusesWithTheRightWay) {
   refused(good, {"--boundary", "none"}, 2, {"--boundary is for meshes"});
   refused(good, {"--pin", "99"}, 2, {"99"});
   expect_failure(sublimit({"fit", file.path("given.obj"), "--cloud", file.path("in.csv"), "-o", file.path("out.obj")}),
-                 2, {"--cloud is for meshes", "--targets"});
+                 3, {"in.csv", "x,y,z[,weight]"});
   file.directory.write("r.json", R"({"kind": "bezier_surface", "degree": [1, 1], "points":
       [[0,0,0],[1,0,0],[0,1,0],[1,1,0]]})");
   expect_failure(sublimit({"fit", file.path("r.json"), "--targets", file.path("in.csv"), "-o", file.path("out.obj")}),

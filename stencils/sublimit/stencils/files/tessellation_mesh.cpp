@@ -27,22 +27,30 @@ Place place_of_corner(const Tessellation& made, Index corner) {
 
 }  // namespace
 
-Mesh tessellation_mesh(const Tessellation& made, const LimitMap& surface, bool face_ids) {
+Mesh tessellation_mesh(const Tessellation& made) {
   Mesh out;
   out.positions = made.points;
   out.face_sizes.assign(made.triangles.size(), 3);
-  for (const Tessellation::Triangle& t : made.triangles) {
+  for (const Tessellation::Triangle& t : made.triangles)
     out.face_vertices.insert(out.face_vertices.end(), t.vertices.begin(), t.vertices.end());
-    if (face_ids) out.face_ids.push_back(index(surface.addresses().place(t.face).face));
-  }
   return out;
 }
 
-void add_normals(Mesh& out, const Tessellation& made, const LimitMap& surface, const Points& control, bool complete) {
+Mesh tessellation_mesh(const Tessellation& made, const Addresses& addresses) {
+  Mesh out = tessellation_mesh(made);
+  for (const Tessellation::Triangle& t : made.triangles) out.face_ids.push_back(index(addresses.place(t.face).face));
+  return out;
+}
+
+std::vector<Place> corner_places(const Tessellation& made) {
   std::vector<Place> at;
   at.reserve(3 * made.triangles.size());
   for (Index c = 0; c < std::ssize(made.triangles) * 3; ++c) at.push_back(place_of_corner(made, c));
-  out.normals = surface.evaluate(control, at, 1).normal;
+  return at;
+}
+
+void add_normals(Mesh& out, const Tessellation& made, Points normals, bool complete) {
+  out.normals = std::move(normals);
   for (Index i = 0; i < out.normals.rows(); ++i) {
     const bool none = out.normals.row(i).isZero(0);
     if (none && complete) out.normals.row(i) = flat_normal(made, made.triangles[size_t(i) / 3]);

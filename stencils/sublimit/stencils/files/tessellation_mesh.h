@@ -10,12 +10,17 @@
 
 namespace sublimit {
 
-/// Returns the mesh of points and triangles; vertex i is place i. `face_ids` are faces of the control mesh.
-Mesh tessellation_mesh(const Tessellation& made, const LimitMap& surface, bool face_ids);
+/// Returns the mesh of points and triangles; vertex i is place i.
+Mesh tessellation_mesh(const Tessellation& made);
+/// Returns the mesh with the face of the control mesh that each triangle lies on, as `face_ids`.
+Mesh tessellation_mesh(const Tessellation& made, const Addresses& addresses);
 
-/// Adds limit normals at the corners of faces; at sharp edges they belong to the side of the face.
-/// @param complete  true: corners where the limit has no normal get that of their triangle
-void add_normals(Mesh& out, const Tessellation& made, const LimitMap& surface, const Points& control, bool complete);
+/// Returns the places of the corners of triangles, each in the face of its triangle.
+std::vector<Place> corner_places(const Tessellation& made);
+/// Adds normals at the corners of triangles; at sharp edges they belong to the side of the triangle.
+/// @param normals   those at `corner_places`; zero where the surface has none
+/// @param complete  true: corners without a normal get that of their triangle
+void add_normals(Mesh& out, const Tessellation& made, Points normals, bool complete);
 
 /// Returns the places of the vertices of a split mesh: those of the tessellation, but on creases the place of each side
 /// in the face of its normal.

@@ -112,6 +112,36 @@ std::pair<Points, FitReport> least_squares(const LinearSource& surface, const st
   return {std::move(found.points), std::move(report)};
 }
 
+CloudFitOptions cloud_options(const FitSettings& settings) {
+  CloudFitOptions options{.fairness = settings.fairness,
+                          .pins = settings.pins,
+                          .iterations = settings.iterations,
+                          .solver = {.method = settings.method}};
+  options.progress = [&](int iteration, const CloudIteration& at) {
+    if (settings.progress)
+      settings.progress("iteration " + format_number(iteration) + ": distances " +
+                        format_number(static_cast<float>(at.rms)) + " rms");
+  };
+  return options;
+}
+
+/// The cloud at its places on the result.
+FitTargets targets_at(const CloudFit& found, const Cloud& cloud) {
+  FitTargets targets;
+  targets.by_place = true;
+  targets.places = {found.foot_points.places, cloud.points, cloud.weights};
+  return targets;
+}
+
+void add_iterations(FitReport& report, CloudFit& found, const FitSettings& settings) {
+  report.position_error = std::move(found.foot_points.distances);
+  report.iterations = std::move(found.iterations);
+  report.pinned = settings.pins.vertices;
+  if (!found.converged)
+    report.notes.push_back("not converged: distances still fall; --iterations allows more than " +
+                           format_number(settings.iterations));
+}
+
 }  // namespace
 
 FitReport report_of(const std::string& kind, const std::string& scheme, const Mesh& mesh, const FitTargets& targets) {
@@ -187,31 +217,26 @@ std::pair<Points, FitReport> fit_patches(const PatchSet& patches, const Points& 
 ReportedFit fit_near_cloud(const Scheme<double>& scheme, const Mesh& mesh, const Cloud& cloud,
                            const FitSettings& settings) {
   const LimitMap surface(scheme, mesh, settings.rules);
-  CloudFitOptions options{.fairness = settings.fairness,
-                          .pins = settings.pins,
-                          .iterations = settings.iterations,
-                          .solver = {.method = settings.method}};
-  options.progress = [&](int iteration, const CloudIteration& at) {
-    if (settings.progress)
-      settings.progress("iteration " + format_number(iteration) + ": distances " +
-                        format_number(static_cast<float>(at.rms)) + " rms");
-  };
   tell(settings, "projecting");
-  CloudFit found = fit_cloud(surface, cloud, mesh.positions, options);
-  FitTargets targets;
-  targets.by_place = true;
-  targets.places = {std::move(found.foot_points.places), cloud.points, cloud.weights};
+  CloudFit found = fit_cloud(surface, cloud, mesh.positions, cloud_options(settings));
   ReportedFit fit{.level = surface.level(),
                   .points = std::move(found.points),
-                  .report = report_of("cloud", scheme.name, mesh, targets)};
-  fit.report.position_error = std::move(found.foot_points.distances);
-  fit.report.iterations = std::move(found.iterations);
-  fit.report.pinned = settings.pins.vertices;
-  if (!found.converged)
-    fit.report.notes.push_back("not converged: distances still fall; --iterations allows more than " +
-                               format_number(settings.iterations));
+                  .report = report_of("cloud", scheme.name, mesh, targets_at(found, cloud))};
+  add_iterations(fit.report, found, settings);
   count(fit, scheme);
   return fit;
+}
+
+std::pair<Points, FitReport> fit_patches_near_cloud(const PatchSet& patches, const Points& columns, const Cloud& cloud,
+                                                    const FitSettings& settings) {
+  tell(settings, "projecting");
+  CloudFit found = fit_cloud(Patches(patches, columns), cloud, cloud_options(settings));
+  FitReport report =
+      report_of("cloud", "free-form", points_in_space(found.points), patches.faces().size, targets_at(found, cloud));
+  add_iterations(report, found, settings);
+  report.output_vertices = patches.num_points();
+  report.output_faces = patches.faces().size;
+  return {std::move(found.points), std::move(report)};
 }
 
 }  // namespace sublimit

@@ -62,6 +62,12 @@ std::pair<Points, FitReport> fit_patches(const PatchSet& patches, const Points& 
 ReportedFit fit_near_cloud(const Scheme<double>& scheme, const Mesh& mesh, const Cloud& cloud,
                            const FitSettings& settings);
 
+/// Fits free-form surfaces to a cloud of points. Weights of rational ones are kept.
+/// @return  fitted columns, and a report without names of files
+/// @throws InvalidParameter  a control point of weight 0
+std::pair<Points, FitReport> fit_patches_near_cloud(const PatchSet& patches, const Points& columns, const Cloud& cloud,
+                                                    const FitSettings& settings);
+
 /// Reads a cloud from a CSV with the header x,y,z or x,y,z,weight, or from a mesh: its vertices, weighted by their
 /// share of the area, or a number of random points on its faces.
 /// @throws FormatError  another file, a cloud without points, negative weights

@@ -63,6 +63,8 @@ Json numbers(const Matrix& m) {
   }
 }
 
+}  // namespace
+
 Json to_json(const LimitIntegrals& limit) {
   Json json{{"area", limit.area},
             {"area_error", limit.area_error},
@@ -79,8 +81,6 @@ Json to_json(const LimitIntegrals& limit) {
                      {"inertia_error", limit.solid->inertia_error}};
   return json;
 }
-
-}  // namespace
 
 LimitIntegrals limit_integrals(const MeshJob& job) {
   if (!job.scheme) throw InvalidOption("integrals are of the limit of a scheme; name one");

@@ -37,6 +37,9 @@ nlohmann::ordered_json json_of_counts(const Info& info, const std::string& name)
           {"triangles", info.smooth_triangles}};
 }
 
+/// Returns integrals as the entry `limit` of `sublimit info --json`.
+nlohmann::ordered_json to_json(const LimitIntegrals& limit);
+
 /// Returns information as `sublimit info --json` prints it.
 /// @param name  name of the mesh
 nlohmann::ordered_json to_json(const MeshInfo& info, const std::string& name);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/stencils/jobs/detail/tessellated_job.h"
 
+#include <utility>
+
 #include "sublimit/base/error.h"
 #include "sublimit/stencils/files/tessellation_mesh.h"
 #include "sublimit/stencils/jobs/detail/refined_job.h"
@@ -10,9 +12,9 @@ namespace sublimit {
 
 Mesh tessellated_mesh(const MeshJob& job, const TessellationOptions& options) {
   const LimitSurface surface(job.mesh, *job.scheme);
-  const Tessellation made = tessellate(surface, options);
-  Mesh triangles = tessellation_mesh(made, surface.map(), true);
-  if (options.normals) add_normals(triangles, made, surface.map(), surface.points(), false);
+  Tessellation made = tessellate(surface, options);
+  Mesh triangles = tessellation_mesh(made, surface.map().addresses());
+  if (options.normals) add_normals(triangles, made, std::move(made.normals), false);
   for (size_t c = 0; c < job.mesh.face_varying.size(); ++c) {
     const Mesh::FaceVarying& channel = job.mesh.face_varying[c];
     try {
