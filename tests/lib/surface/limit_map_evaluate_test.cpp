@@ -12,6 +12,9 @@
 #include "laws/tested_schemes.h"
 #include "meshes/places.h"
 #include "sublimit/limit/detail/limit_cache.h"
+#include "sublimit/limit/limit.h"
+#include "sublimit/scheme/scheme_info.h"
+#include "sublimit/schemes/schemes.h"
 #include "sublimit/surface/limit_surface.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
@@ -250,6 +253,32 @@ TEST(LimitMap, RotatingSchemesBeginWithEvenLevels) {
     expect_error<InvalidParameter>([&] { LimitMap(scheme, levels[1]); }, {name, "multiple of 2", "level 1"});
     EXPECT_NO_THROW(LimitMap(scheme, levels[2]).stencil({0, 0.25, 0.25}));
   }
+}
+
+// Limits refine parts of a mesh, whose faces have numbers of their own: the message has that of the mesh.
+TEST(LimitMap, NamesTheFirstFaceThatIsNoTriangle) {
+  Mesh mesh;  // a row of triangles, and a quadrilateral behind them
+  const Index triangles = 40;
+  mesh.positions = Points::Zero(triangles + 4, 3);
+  for (Index v = 0; v < triangles + 4; ++v) mesh.positions.row(v) << v / 2, v % 2, 0;
+  for (Index f = 0; f < triangles; ++f) {
+    mesh.face_sizes.push_back(3);
+    for (const Index v : {f, f + 1 + (f % 2 == 0 ? 1 : 0), f + 2 - (f % 2 == 0 ? 1 : 0)})
+      mesh.face_vertices.push_back(v);
+  }
+  mesh.face_sizes.push_back(4);
+  for (const Index v : {triangles, triangles + 2, triangles + 3, triangles + 1}) mesh.face_vertices.push_back(v);
+  size_t of_triangles = 0;
+  for (const SchemeInfo& info : schemes()) {
+    if (!info.triangles || !info.linear || info.kind != SchemeInfo::Kind::surface) continue;
+    SCOPED_TRACE(info.name);
+    ++of_triangles;
+    const std::string where = "face " + std::to_string(triangles) + " has 4 corners";
+    expect_error<UnsupportedTopology>([&] { (void)LimitMap(find_scheme(info.name).value(), mesh); }, {where});
+    expect_error<UnsupportedTopology>([&] { (void)LimitSurface(mesh, info.name); }, {where});
+    expect_error<UnsupportedTopology>([&] { (void)limit(mesh, info.name); }, {where});
+  }
+  EXPECT_GE(of_triangles, 3u);
 }
 
 TEST(LimitMap, PolygonsThatAreCutAtEdgesAreRefused) {

@@ -53,6 +53,9 @@ LevelOf<T> control_level(const Scheme<T>& scheme, const Mesh& mesh, const Subdiv
   LevelOf<T> level;
   level.steps.emplace_back();
   level.steps[0].topology = Topology(view(mesh));
+  // Now, while faces have the numbers of the mesh: limits refine parts of it.
+  const Split first = scheme.steps_at(0, level.topology())[0].split;
+  if (first == Split::ptq || first == Split::sqrt3) check_triangles(level.topology());
   level.sharpness = initial_sharpness(level.topology(), mesh, boundary, creasing);
   check_sharpness(scheme.name, scheme.sharpening, scheme.is_dual(), level.topology(), level.sharpness, mesh);
   const bool holes_at_boundary = boundary == Boundary::none && needs_neighbors(scheme);
