@@ -29,7 +29,7 @@
 #include "sublimit/certificates/c1/c1_certificate.h"
 #include "sublimit/certificates/numbers/detail/out_of_memory.h"
 #include "sublimit/certificates/spectra/exact_schemes.h"
-#include "sublimit/curves/detail/curve_limits.h"
+#include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/eval/eval.h"
@@ -242,14 +242,13 @@ TEST_F(LackOfMemory, OnCurvesIsAnError) {
   const ControlPolygon polygon = polygon_through(points, true);
   for (const char* name : {"chaikin", "four-point", "lane-riesenfeld"}) {
     const CurveScheme<double> scheme = find_curve_scheme(name).value();
-    CurveAnalysis kept(scheme);
     expect_survives_failures(name, [&] {
-      CurveAnalysis fresh(scheme);
       const auto levels = refine(scheme, polygon, 2);
+      const LimitCurve fine(scheme, levels[2]);
       const LimitCurve curve(scheme, polygon);
       const std::vector<CurvePlace> places = curve.grid(3);
-      return bits(SparseMatrix(fresh.limits(levels[2]).position)) +
-             bits(SparseMatrix(kept.limits(levels[2]).position)) + bits(curve.evaluate(points, places, 1).position);
+      return bits(place_stencils(fine, fine.point_places()).matrices[0]) +
+             bits(curve.evaluate(points, places, 1).position);
     });
   }
 }

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <random>
 
+#include "laws/point_limits.h"
 #include "laws/stationary.h"
 #include "sublimit/core/detail/dense_decompositions.h"
-#include "sublimit/curves/detail/curve_limits.h"
+#include "sublimit/curves/detail/curve_vertex.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "support/tolerance.h"
 
@@ -130,9 +131,12 @@ std::string claims_about_weights_hold(const Scheme& scheme) {
 struct Line {
   CurveLayout layout;
   CurveOutline outline, child;
+  CurveLevel level;
   Eigen::VectorXd x, y;  ///< positions of parents and children in edges of the parents
   explicit Line(const Scheme& scheme, Index size = 40)
       : layout(scheme), outline(layout.control(size, false)), child(layout.child(outline)), x(size), y(child.size) {
+    level.unknowns = layout.unknowns();
+    level.curves = {outline};
     for (Index a = 0; a < size; ++a) x[a] = double(layout.position(outline, a)) / 2;
     for (Index a = 0; a < child.size; ++a) y[a] = double(layout.position(child, a)) / 4;
   }
@@ -181,9 +185,8 @@ std::string polynomials_are_generated_up_to_the_claim(const Scheme& scheme) {
 
 double reproduction_defect(const Scheme& scheme, int degree) {
   const Line line(scheme);
-  CurveAnalysis analysis(scheme);
   const Index middle = 20;
-  const CurveLimits limit = analysis.limits(line.outline, 0, {line.layout.position(line.outline, middle)});
+  const PointLimits limit = limits_at(scheme, line.level, {{middle, 0}});
   // Not around the middle itself, where odd powers vanish.
   const Eigen::VectorXd x = line.x.array() - line.x[middle] + 0.5;
   return std::abs((limit.position * power(scheme, x, degree))[0] - std::pow(0.5, degree));
@@ -228,25 +231,24 @@ std::string ends_go_on(const Scheme& scheme) {
   return {};
 }
 
-double difference(const CurveMatrix<double>& a, const CurveMatrix<double>& b) {
-  return (Dense(a) - Dense(b)).cwiseAbs().maxCoeff();
-}
+double difference(const SparseMatrix& a, const SparseMatrix& b) { return (Dense(a) - Dense(b)).cwiseAbs().maxCoeff(); }
 
 /// L_k = L_{k+1} S_k, for limits and derivatives.
 std::string limits_agree_between_levels(const Scheme& scheme) {
-  CurveAnalysis analysis(scheme);
-  const CurveLayout& layout = analysis.layout();
+  const CurveLayout layout(scheme);
   for (const ControlPolygon& polygon : polygons_for(scheme)) {
     const std::vector<CurveLevel> levels = refine(scheme, polygon, 2);
     for (int k = 0; k < 2; ++k) {
       if (levels[k].curves.size() > 1) continue;
       const CurveOutline &coarse = levels[k].curves[0], &fine = levels[k + 1].curves[0];
-      std::vector<std::int64_t> positions, doubled;
-      for (Index a = 0; a < coarse.size; ++a) positions.push_back(layout.position(coarse, a));
-      for (const std::int64_t p : positions) doubled.push_back(2 * p);
-      const CurveLimits L = analysis.limits(coarse, k, positions), M = analysis.limits(fine, k + 1, doubled);
-      const CurveMatrix<double> position = M.position * levels[k + 1].S, first = M.first * levels[k + 1].S,
-                                second = M.second * levels[k + 1].S;
+      std::vector<CurvePlace> places, on_fine;
+      for (Index a = 0; a < coarse.size; ++a) {
+        places.push_back(place_at(layout, coarse, layout.position(coarse, a)));
+        on_fine.push_back(place_at(layout, fine, 2 * layout.position(coarse, a)));
+      }
+      const PointLimits L = limits_at(scheme, levels[k], places), M = limits_at(scheme, levels[k + 1], on_fine);
+      const SparseMatrix position = M.position * levels[k + 1].S, first = M.first * levels[k + 1].S,
+                         second = M.second * levels[k + 1].S;
       if (difference(L.position, position) > rounding(16)) return "limits of levels " + std::to_string(k) + " differ";
       if (difference(L.first, first) > rounding(256)) return "derivatives of levels " + std::to_string(k) + " differ";
       for (Index a = 0; a < coarse.size; ++a)  // at a knot of the finer level only one-sided ones may exist
@@ -260,10 +262,7 @@ std::string limits_agree_between_levels(const Scheme& scheme) {
 
 std::string derivatives_fit_the_claim(const Scheme& scheme) {
   const Line line(scheme);
-  CurveAnalysis analysis(scheme);
-  std::vector<std::int64_t> positions;
-  for (Index a = 0; a < line.outline.size; ++a) positions.push_back(line.layout.position(line.outline, a));
-  const CurveLimits L = analysis.limits(line.outline, 0, positions);
+  const PointLimits L = point_limits(scheme, line.level);
   const Eigen::VectorXd ones = power(scheme, line.x, 0), x = power(scheme, line.x, 1);
   for (Index a = 0; a < 40; ++a) {
     if (L.order[a] < std::min(scheme.claims.regular, 2)) return "point " + std::to_string(a) + " has no derivative";
@@ -277,8 +276,8 @@ std::string derivatives_fit_the_claim(const Scheme& scheme) {
 /// What smoothness C^r needs of the local matrix inside: eigenvalues 1, 1/2, ..., 2^-r, and no other as large as the
 /// last.
 std::string spectrum_fits_the_claim(const Scheme& scheme) {
-  CurveAnalysis analysis(scheme);
-  Eigen::VectorXd moduli = eigenvalues(analysis.neighborhood(CurveAnchor::inside).A).cwiseAbs();
+  const Line line(scheme, 200);
+  Eigen::VectorXd moduli = eigenvalues(curve_neighborhood(scheme, line.outline, 0, 200).A).cwiseAbs();
   std::sort(moduli.begin(), moduli.end(), std::greater<>());
   const int r = scheme.claims.regular;
   for (int i = 0; i <= r && is_stationary(scheme); ++i)
@@ -297,8 +296,7 @@ std::string published_values_hold(const Scheme& scheme) {
     bool known = false;
     for (const double tension : {0.0, 0.5, 1.0, 1.5}) known = known || std::abs(g - tension) < 1e-12;
     if (!known) return "the tension is " + std::to_string(g);
-    CurveAnalysis analysis(scheme);
-    const CurveLimits L = analysis.limits(analysis.layout().control(60, false), 0, {60});
+    const PointLimits L = limits_at(scheme, Line(scheme, 60).level, {{30, 0}});
     if (g > 0 && std::abs(L.first.coeff(0, 31) - 8 / (4 * (4 - g))) > 1e-12)
       return "the derivative is not the published one";
   }

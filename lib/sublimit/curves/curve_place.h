@@ -18,6 +18,8 @@ namespace sublimit {
 struct CurvePlace {
   Index segment = 0;  ///< number of the segment, counted through all curves
   double t = 0;       ///< 0 at the point where the segment starts, 1 at the next one
+
+  bool operator==(const CurvePlace&) const = default;
 };
 
 /// Points of curves, a row for each place. Absent quantities are zero; `order` and `status` say what is present. Plain
@@ -36,6 +38,9 @@ struct [[nodiscard]] CurveSamples {
   CurveSamples(Eigen::Index rows, Eigen::Index dimension, int derivatives);
   /// Returns the number of derivatives that there are rows for; without any rows 0.
   int derivatives() const { return int{first.rows() > 0} + int{second.rows() > 0}; }
+  /// Returns the positions (0), the first (1) or the second derivatives (2).
+  Points& part(int derivative) { return derivative == 0 ? position : derivative == 1 ? first : second; }
+  const Points& part(int derivative) const { return const_cast<CurveSamples&>(*this).part(derivative); }
   /// Fills the normal of a row from its derivatives.
   /// @param noise  a first derivative of at most this length counts as zero: the status becomes `undefined_normal`
   void set_normal(Index row, double noise);

@@ -8,6 +8,7 @@
 
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/core/detail/submatrix.h"
 #include "sublimit/curves/detail/curve_levels.h"
 #include "sublimit/scheme/detail/check_levels.h"
 
@@ -56,13 +57,6 @@ std::vector<SparseMatrix> sample_rows(const CurveScheme<double>& scheme, int lev
   std::vector<SparseMatrix> rows;
   for (const bool closed : {false, true}) rows.push_back(curve_matrix(scheme, {layout.control(size, closed)}, level));
   return rows;
-}
-
-bool has_same_bits(const SparseMatrix& a, const SparseMatrix& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
-         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
-         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
-         std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
 }
 
 }  // namespace

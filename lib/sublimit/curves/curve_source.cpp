@@ -19,24 +19,24 @@ CurveSamples CurveSource::evaluate(const Points& columns, std::span<const CurveP
   for (size_t i = 0; i < places.size(); ++i) check_place(places[i], num_segments(), static_cast<std::int64_t>(i));
   CurveSamples out(std::ssize(places), dimension, order);
   const auto fill = [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i)
-      sample(places[static_cast<size_t>(i)], columns, coordinates, static_cast<Index>(i), out);
+    fill_samples(places.subspan(size_t(begin), size_t(end - begin)), columns, coordinates, Index(begin), out);
   };
   parallel_for_blocks(std::ssize(places), fill, 256);
   return out;
 }
 
-void CurveSource::sample(const CurvePlace& place, const Points& columns, Coordinates coordinates, Index row,
-                         CurveSamples& out) const {
-  const CurveStencil found = stencil(place, out.derivatives());
-  const RowValues at =
-      row_values(found.weights, 1, columns(found.unknowns, Eigen::all), coordinates, unknowns_per_point() == 1);
-  out.status[row] = at.is_pole ? LimitStatus::pole : found.status;
-  if (at.is_pole) return;
-  Points* const parts[] = {&out.position, &out.first, &out.second};
-  for (Eigen::Index k = 0; k < found.weights.rows(); ++k) parts[k]->row(row) = at.values.row(k);
-  out.order[row] = static_cast<std::int8_t>(found.weights.rows() - 1);
-  if (out.order[row] > 0) out.set_normal(row, 64 * std::numeric_limits<double>::epsilon() * at.sizes[1]);
+void CurveSource::fill_samples(std::span<const CurvePlace> places, const Points& columns, Coordinates coordinates,
+                               Index first, CurveSamples& out) const {
+  for (Index row = first; const CurvePlace& place : places) {
+    const CurveStencil found = stencil(place, out.derivatives());
+    const RowValues at =
+        row_values(found.weights, 1, columns(found.unknowns, Eigen::all), coordinates, unknowns_per_point() == 1);
+    out.status[row] = at.is_pole ? LimitStatus::pole : found.status;
+    for (Eigen::Index k = 0; k < at.values.rows(); ++k) out.part(int(k)).row(row) = at.values.row(k);
+    if (!at.is_pole) out.order[row] = static_cast<std::int8_t>(found.weights.rows() - 1);
+    if (out.order[row] > 0) out.set_normal(row, 64 * std::numeric_limits<double>::epsilon() * at.sizes[1]);
+    ++row;
+  }
 }
 
 std::vector<CurvePlace> CurveSource::grid(int N) const {

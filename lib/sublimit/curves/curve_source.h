@@ -69,10 +69,11 @@ class CurveSource {
   CurveSource& operator=(const CurveSource&) = default;
   CurveSource& operator=(CurveSource&&) = default;
 
-  /// Fills a row of `out`, which is zero, by the stencil of a place that exists. A kind of curve that has its rows
-  /// without a stencil overrides it.
-  virtual void sample(const CurvePlace& place, const Points& columns, Coordinates coordinates, Index row,
-                      CurveSamples& out) const;
+  /// Fills rows of `out`, which are zero, by the stencils of places that exist. A kind of curve that has its rows
+  /// without stencils overrides it.
+  /// @param first  row of the first place; those of the others follow
+  virtual void fill_samples(std::span<const CurvePlace> places, const Points& columns, Coordinates coordinates,
+                            Index first, CurveSamples& out) const;
 };
 
 /// Returns the stencils of places of a curve: matrices over the unknowns for the position and for each derivative.

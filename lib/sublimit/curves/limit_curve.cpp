@@ -71,10 +71,6 @@ struct LimitCurve::Parts {
     } else {
       ++p.piece;
       p.s = t - 0.5;
-      if (length == 1) {  // the end of the curve
-        --p.piece;
-        p.s = 1;
-      }
     }
     if (curve.closed) p.piece %= pieces.num_pieces(curve);
     return p;
@@ -87,39 +83,27 @@ struct LimitCurve::Parts {
     const auto ask = [&](bool one_sided, int derivatives) {
       pieces.rows(curve, static_cast<Index>(place.piece), place.s, derivatives, one_sided, result);
     };
-    if (!curve.closed) {
-      const bool before = place.piece < 0, at_start = place.piece == 0 && place.s == 0;
-      const bool behind = place.piece >= count && !(place.piece == count && place.s == 0);
-      const bool at_end = place.piece == count - 1 && place.s == 1;
-      if (before && !(place.piece == -1 && place.s == 1)) {
-        place = {place.curve, 0, 0};
-        ask(true, 0);
-        result.exists = 0;
-        return LimitStatus::outside;
-      }
-      if (before) place = {place.curve, 0, 0};
-      if (behind || at_end || place.piece == count) {
-        place = {place.curve, count - 1, 1};
-        ask(true, behind ? 0 : order);
-        if (behind) {
-          result.exists = 0;
-          return LimitStatus::outside;
-        }
-        return result.exists > 0 ? LimitStatus::crease : LimitStatus::undefined_normal;
-      }
-      if (at_start || before) {
-        ask(true, order);
-        return result.exists > 0 ? LimitStatus::crease : LimitStatus::undefined_normal;
-      }
-    }
-    const PieceOfCurve given = place;
-    if (place.s == 1) place = {place.curve, curve.closed ? (place.piece + 1) % count : place.piece + 1, 0};
-    ask(false, order);
-    if (place.s == 0 && result.exists == 0) {  // a corner, seen from the side that was given
-      place = given;
+    const auto one_sided = [&](const PieceOfCurve& at) {
+      place = at;
       ask(true, order);
       return result.exists > 0 ? LimitStatus::crease : LimitStatus::undefined_normal;
+    };
+    const PieceOfCurve given = place;
+    if (place.s == 1) place = {place.curve, place.piece + 1, 0};
+    if (curve.closed) {
+      place.piece %= count;
+    } else if (place.piece < 0 || place.piece >= count || (place.piece == 0 && place.s == 0)) {
+      const bool is_end = place.s == 0 && (place.piece == 0 || place.piece == count);
+      const PieceOfCurve end =
+          place.piece <= 0 ? PieceOfCurve{place.curve, 0, 0} : PieceOfCurve{place.curve, count - 1, 1};
+      if (is_end) return one_sided(end);
+      place = end;
+      ask(true, 0);
+      result.exists = 0;
+      return LimitStatus::outside;
     }
+    ask(false, order);
+    if (place.s == 0 && result.exists == 0) return one_sided(given);  // a corner, seen from the side that was given
     if (result.kink) return LimitStatus::crease;
     return result.exists == 2   ? LimitStatus::regular
            : result.exists == 1 ? LimitStatus::unbounded_second
@@ -209,28 +193,54 @@ CurveStencil LimitCurve::stencil(const CurvePlace& place, int order) const {
   return result;
 }
 
-void LimitCurve::sample(const CurvePlace& place, const Points& columns, Coordinates coordinates, Index row,
-                        CurveSamples& out) const {
-  if (coordinates == Coordinates::homogeneous) return CurveSource::sample(place, columns, coordinates, row, out);
-  PieceOfCurve piece = parts_->place(place);
-  CurvePieceRows rows;
-  out.status[row] = parts_->rows(piece, out.derivatives(), rows);
-  const int derivatives = std::min(out.derivatives(), rows.exists);
-  out.order[row] = static_cast<std::int8_t>(derivatives);
+void LimitCurve::fill_samples(std::span<const CurvePlace> places, const Points& columns, Coordinates coordinates,
+                              Index first, CurveSamples& out) const {
+  if (coordinates == Coordinates::homogeneous)
+    return CurveSource::fill_samples(places, columns, coordinates, first, out);
   const Eigen::Index dimension = columns.cols();
-  double noise = 0;
-  Points* const parts[] = {&out.position, &out.first, &out.second};
-  parts_->for_each_unknown(piece, [&](Index column, Index name) {
-    const double* x = columns.data() + name * dimension;
-    for (int k = 0; k <= derivatives; ++k) {
-      const double weight = rows.row(k)[column];
-      double* sum = parts[k]->data() + row * dimension;
-      for (Eigen::Index c = 0; c < dimension; ++c) sum[c] += weight * x[c];
-      if (k != 1) continue;
-      for (Eigen::Index c = 0; c < dimension; ++c) noise += std::abs(weight * x[c]);
+  CurvePieceRows rows;
+  for (Index row = first; const CurvePlace& place : places) {
+    PieceOfCurve piece = parts_->place(place);
+    out.status[row] = parts_->rows(piece, out.derivatives(), rows);
+    const int derivatives = std::min(out.derivatives(), rows.exists);
+    out.order[row] = static_cast<std::int8_t>(derivatives);
+    double noise = 0;
+    parts_->for_each_unknown(piece, [&](Index column, Index name) {
+      const double* x = columns.data() + name * dimension;
+      for (int k = 0; k <= derivatives; ++k) {
+        const double weight = rows.row(k)[column];
+        double* sum = out.part(k).data() + row * dimension;
+        for (Eigen::Index c = 0; c < dimension; ++c) sum[c] += weight * x[c];
+        if (k != 1) continue;
+        for (Eigen::Index c = 0; c < dimension; ++c) noise += std::abs(weight * x[c]);
+      }
+    });
+    out.set_normal(row, 16 * std::numeric_limits<double>::epsilon() * noise);
+    ++row;
+  }
+}
+
+std::vector<CurvePlace> LimitCurve::point_places() const {
+  const CurveLayout& layout = parts_->pieces.layout();
+  std::vector<CurvePlace> places;
+  for (size_t c = 0; c < parts_->curves.size(); ++c) {
+    const CurveOutline& curve = parts_->curves[c];
+    const Index first = parts_->first_segment[c];
+    for (Index a = 0; a < curve.size; ++a) {
+      Index segment = a;
+      double t = 0;
+      if (!curve.closed) {
+        const std::int64_t at = std::clamp<std::int64_t>(layout.position(curve, a), 0, layout.end(curve));
+        segment = std::min(a, curve.size - 2);
+        while (layout.position(curve, segment) > at) --segment;
+        while (segment < curve.size - 2 && layout.position(curve, segment + 1) <= at) ++segment;
+        const auto [from, length] = parts_->ends(curve, segment);
+        t = static_cast<double>(at - from) / length;
+      }
+      places.push_back({first + segment, t});
     }
-  });
-  if (derivatives > 0) out.set_normal(row, 16 * std::numeric_limits<double>::epsilon() * noise);
+  }
+  return places;
 }
 
 CurveSamples evaluate(const GeometricCurveScheme& scheme, const ControlPolygon& polygon,

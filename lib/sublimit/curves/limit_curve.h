@@ -21,6 +21,7 @@
 // `outside`, and so at the end.
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "sublimit/curves/curve_refine.h"
 #include "sublimit/curves/curve_source.h"
@@ -61,9 +62,13 @@ class LimitCurve : public CurveSource {
 
   CurveStencil stencil(const CurvePlace& place, int order = 0) const override;
 
+  /// Returns the place of each point of the curves, in order along them; of points outside the limit of a curve with
+  /// free ends the start or the end of it.
+  std::vector<CurvePlace> point_places() const;
+
  protected:
-  void sample(const CurvePlace& place, const Points& columns, Coordinates coordinates, Index row,
-              CurveSamples& out) const override;
+  void fill_samples(std::span<const CurvePlace> places, const Points& columns, Coordinates coordinates, Index first,
+                    CurveSamples& out) const override;
 
  private:
   struct Parts;

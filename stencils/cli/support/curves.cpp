@@ -6,7 +6,7 @@
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/curves/detail/curve_limits.h"
+#include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
 #include "sublimit/io/detail/file_extension.h"
@@ -86,6 +86,28 @@ Refined refined(const CurveJob& job, const CurveScheme<double>& scheme, Progress
   return result;
 }
 
+/// Makes first derivatives at the points of a level unit tangents; not-a-number where there is none, as at corners.
+/// @return  number of points without a tangent
+Index unit_tangents(const CurveLevel& level, const std::vector<CurvePlace>& places, CurveSamples& found) {
+  Index without = 0;
+  size_t i = 0;
+  for (const CurveOutline& curve : level.curves) {
+    const CurvePlace start = places[i], end = places[i + size_t(curve.size) - 1];
+    for (Index a = 0; a < curve.size; ++a, ++i) {
+      const bool is_end = !curve.closed && (places[i] == start || places[i] == end);
+      const bool is_corner = found.status[i] == LimitStatus::crease && !is_end;
+      const bool defined = found.order[i] > 0 && found.status[i] != LimitStatus::undefined_normal && !is_corner;
+      without += !defined;
+      auto tangent = found.first.row(Eigen::Index(i));
+      if (defined)
+        tangent /= tangent.stableNorm();
+      else
+        tangent.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  return without;
+}
+
 }  // namespace
 
 void refuse_polygon(const Common& common) {
@@ -129,28 +151,19 @@ int limit_curves(const CurveJob& job) {
   Progress progress(job.common->quiet);
   const CurveScheme<double> scheme = scheme_of(*job.common);
   const Refined curves = refined(job, scheme, progress);
-  CurveLimits limits;
+  const CurveLevel& level = curves.levels.back();
+  ControlPolygon result = curve_outlines(level);
+  Index without = 0;
   naming_mesh(*job.common, [&] {
     progress.step("limits");
-    limits = CurveAnalysis(scheme).limits(curves.levels.back());
+    const LimitCurve limit(scheme, level);
+    const std::vector<CurvePlace> places = limit.point_places();
+    CurveSamples found = limit.evaluate(curves.unknowns, places, job.tangents ? 1 : 0);
+    result.points = std::move(found.position);
+    if (job.tangents) without = unit_tangents(level, places, found);
+    result.tangents = std::move(found.first);
   });
-  ControlPolygon result = curve_outlines(curves.levels.back());
-  result.points = apply(limits.position, curves.unknowns);
-  Index without = 0;
-  if (job.tangents) {
-    result.tangents = apply(limits.first, curves.unknowns);
-    for (Index i = 0; i < result.num_points(); ++i) {
-      const double length = result.tangents.row(i).stableNorm();
-      const bool defined = limits.order[i] > 0 && length > 0;
-      without += !defined;
-      if (defined)
-        result.tangents.row(i) /= length;
-      else
-        result.tangents.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
-  } else {
-    result.columns = curves.polygon.columns;
-  }
+  if (!job.tangents) result.columns = curves.polygon.columns;
   progress.step("writing " + job.output);
   write_polygon(job.output, result);
   progress.step("");

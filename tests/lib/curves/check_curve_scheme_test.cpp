@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sublimit/curves/detail/curve_limits.h"
 #include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_ends.h"
+#include "sublimit/curves/detail/curve_layout.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "support/expect_error.h"
 
@@ -90,9 +90,7 @@ TEST(CurveLevels, HaveTheLimitsOfTheirSchemeAlone) {
                             tense = *find_curve_scheme("four-point", {{"tension", "1/2"}});
   const std::vector<CurveLevel> levels = refine(four, polygon(false), 2);
   for (const CurveLevel& level : levels) {
-    EXPECT_NO_THROW(CurveAnalysis(*find_curve_scheme("four-point")).limits(level));
     EXPECT_NO_THROW(LimitCurve(*find_curve_scheme("four-point"), level));
-    expect_error<InvalidParameter>([&] { CurveAnalysis(spline).limits(level); }, {"'lane-riesenfeld'", "'four-point'"});
     expect_error<InvalidParameter>([&] { LimitCurve(spline, level); }, {"'lane-riesenfeld'", "'four-point'"});
     expect_error<InvalidParameter>([&] { LimitCurve(tense, level); }, {"'four-point'", "other masks or ends"});
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is made once for each type of piece: blocks, limits, polynomials where there are any, orders, powers.
-#include "sublimit/curves/detail/curve_limits.h"
 #include "sublimit/curves/detail/curve_pieces.h"
 
 namespace sublimit {
@@ -136,14 +135,9 @@ void CurvePieces::find_polynomials(int at) {
   if (halves[0] && halves[1]) type.polynomials = {*halves[0], *halves[1]};
 }
 
-/// What derivatives two polynomials share where they meet; where there are others, the analysis of vertices tells.
-void CurvePieces::find_orders(int at) {
-  Type& type = types_[at];
-  if (type.level < settled_) return;
-  if (type.polynomials.empty()) {
-    make_vertices(at);
-    return;
-  }
+/// Derivatives that polynomials share at the start of a piece and between its halves.
+void CurvePieces::find_orders(Type& type) const {
+  if (type.polynomials.empty()) return;  // vertices have their own
   const auto ends = [](const CurvePolynomial& p, double y, Index width, double scale) {
     Matrix rows(3, width);
     p.evaluate(y, 2, width, rows.data());
@@ -163,46 +157,46 @@ void CurvePieces::find_orders(int at) {
   if (canonical_piece(type) == 0) return;  // the start of a curve
   const CurveOutline curve = canonical(type);
   const Index piece = canonical_piece(type), unknowns = layout_.unknowns(), all = curve.size * unknowns;
-  const Type& left = types_[find(piece - 1, num_pieces(curve) - piece, type.level)];
-  if (left.polynomials.empty()) {
-    CurveAnalysis analysis(scheme_);
-    type.start_order = analysis.limits(curve, type.level, {2 * std::int64_t{piece}}).order[0];
-    return;
-  }
+  const int before = find(piece - 1, num_pieces(curve) - piece, type.level);
+  CurvePieceRows last;
+  rows(before, 1, 2, true, last);
+  Matrix left = Matrix::Zero(3, last.width);
+  std::copy_n(last.weights.data(), (last.exists + 1) * last.width, left.data());
   const auto on_curve = [&](const Matrix& rows, Index j) {
     Matrix result = Matrix::Zero(3, all);
     result.middleCols(window(curve, j).first * unknowns, rows.cols()) = rows;
     return result;
   };
-  type.start_order = shared(on_curve(ends(left.polynomials.back(), 1, left.width, scale(left)), piece - 1),
-                            on_curve(ends(type.polynomials.front(), 0, type.width, scale(type)), piece));
+  type.start_order = std::min(
+      last.exists,
+      shared(on_curve(left, piece - 1), on_curve(ends(type.polynomials.front(), 0, type.width, scale(type)), piece)));
 }
 
-void CurvePieces::make_vertices(int at) {
-  Type& type = types_[at];
-  const CurveOutline curve = canonical(type);
-  const Index piece = canonical_piece(type), unknowns = layout_.unknowns();
-  const Index first = window(curve, piece).first * unknowns;
-  CurveAnalysis analysis(scheme_);
+/// Derivatives where block c repeats: at the start or the end of the piece.
+CurveVertex CurvePieces::vertex(const Type& type, int c) const {
+  return curve_vertex(scheme_, canonical(type), type.level, 2 * (std::int64_t{canonical_piece(type)} + c));
+}
+
+void CurvePieces::make_vertices(Type& type) const {
+  const Index first = window(canonical(type), canonical_piece(type)).first * layout_.unknowns();
   for (int c : {0, 1}) {
     if (type.limit[c].size() == 0) continue;
-    const CurveLimits limits = analysis.limits(curve, type.level, {2 * (std::int64_t{piece} + c)});
-    Vertex& vertex = type.vertex[c];
-    vertex.exists = limits.order[0];
-    vertex.rows.setZero(3, type.width);
-    vertex.rows.row(0) = type.limit[c].cast<double>();
-    const CurveMatrix<double>* parts[] = {&limits.first, &limits.second};
-    for (int k = 1; k <= vertex.exists; ++k)
-      for (CurveMatrix<double>::InnerIterator it(*parts[k - 1], 0); it; ++it) {
-        const Index column = static_cast<Index>(it.col()) - first;  // what lies beyond the window is rounding
-        if (column >= 0 && column < type.width) vertex.rows(k, column) = std::ldexp(it.value(), -k * type.level);
-      }
+    CurveVertex found = vertex(type, c);
+    const bool is_end = far_ > 0 && (c == 0 ? type.before : type.after) == 0;
+    if (is_end && found.order() == 2)  // else it is a Taylor polynomial, but no derivative around the end
+      found.has_second[0] = vertex(types_[find(far_, far_, type.level)], 0).has_second[0];
+    Vertex& stored = type.vertex[c];
+    stored.exists = found.order();
+    stored.rows.setZero(3, type.width);
+    stored.rows.row(0) = type.limit[c].cast<double>();
+    // What lies beyond the window is rounding.
+    if (stored.exists >= 1) stored.rows.row(1) = found.first.segment(first, type.width);
+    if (stored.exists >= 2) stored.rows.row(2) = found.second[0].segment(first, type.width);
   }
 }
 
 /// Powers of blocks that repeat; those of derivatives without the unknowns that follow from the others.
 void CurvePieces::make_powers(Type& type) const {
-  if (!type.polynomials.empty()) return;
   for (int c : {0, 1}) {
     if (type.limit[c].size() == 0) continue;
     const MatrixL& B = type.exact_B[c];

@@ -11,7 +11,7 @@ CurvePieces::CurvePieces(const CurveScheme<double>& scheme, int level, const std
   // The first piece whose window lies inside, and one more, whose neighbour does too.
   far_ = std::max(0, (layout_.begin() + layout_.radius() - 1) / 2);
   if (far_ > 0) ++far_;
-  pad_ = far_ + layout_.radius() + layout_.end_points() + 2;
+  pad_ = far_ + layout_.radius() + layout_.end_points() + curve_margin / 2 + 2;
   settled_ = settled_level(level);
   for (const CurveOutline& curve : curves) {
     const Index pieces = num_pieces(curve);
@@ -36,8 +36,12 @@ CurvePieces::CurvePieces(const CurveScheme<double>& scheme, int level, const std
   }
   for (Type& type : types_) make_limits(type);
   for (int at = 0; at < num_types(); ++at) find_polynomials(at);
-  for (int at = 0; at < num_types(); ++at) find_orders(at);
-  for (Type& type : types_) make_powers(type);
+  for (Type& type : types_)
+    if (type.polynomials.empty()) {
+      make_vertices(type);
+      make_powers(type);
+    }
+  for (Type& type : types_) find_orders(type);
   first_types_.assign((far_ + 1) * (far_ + 1), -1);
   for (const auto& [key, at] : numbers_)
     if (key[2] == std::min(level, settled_)) first_types_[key[0] * (far_ + 1) + key[1]] = at;
@@ -106,8 +110,12 @@ void CurvePieces::project(const Type& type, int derivatives, double* weights) co
 
 void CurvePieces::rows(const CurveOutline& curve, Index piece, double s, int order, bool one_sided,
                        CurvePieceRows& result) const {
-  int at = curve.closed ? first_types_.back()
-                        : first_types_[clipped(piece) * (far_ + 1) + clipped(num_pieces(curve) - 1 - piece)];
+  rows(curve.closed ? first_types_.back()
+                    : first_types_[clipped(piece) * (far_ + 1) + clipped(num_pieces(curve) - 1 - piece)],
+       s, order, one_sided, result);
+}
+
+void CurvePieces::rows(int at, double s, int order, bool one_sided, CurvePieceRows& result) const {
   // Down, by the digits of s.
   result.path.clear();
   int end = -1;  // the vertex where the way ends

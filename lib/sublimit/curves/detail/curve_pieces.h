@@ -20,6 +20,7 @@
 
 #include "sublimit/curves/detail/curve_levels.h"
 #include "sublimit/curves/detail/curve_polynomial.h"
+#include "sublimit/curves/detail/curve_vertex.h"
 
 namespace sublimit {
 
@@ -117,10 +118,12 @@ class CurvePieces {
   void make_limits(Type& type) const;
   RowL value(int at, Real s) const;
   void find_polynomials(int at);
-  void find_orders(int at);
-  void make_vertices(int at);
+  void find_orders(Type& type) const;
+  CurveVertex vertex(const Type& type, int c) const;
+  void make_vertices(Type& type) const;
   void make_powers(Type& type) const;
   void project(const Type& type, int derivatives, double* weights) const;
+  void rows(int at, double s, int order, bool one_sided, CurvePieceRows& result) const;
 
   CurveScheme<double> scheme_;
   CurveLayout layout_;

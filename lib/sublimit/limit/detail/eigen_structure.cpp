@@ -7,6 +7,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/complex_decompositions.h"
 #include "sublimit/core/detail/dense_decompositions.h"
+#include "sublimit/core/detail/left_eigenvector.h"
 #include "sublimit/core/number.h"
 #include "sublimit/source/limit_status.h"
 
@@ -319,28 +320,13 @@ EigenStructure eigen_structure(const FourierBlocks& fourier) {
 
 Eigen::VectorXd limit_weights(const Eigen::MatrixXd& A) {
   const Eigen::Index size = A.rows();
-  Eigen::MatrixXd equations(size + 1, size);
-  equations.topRows(size) = A.transpose() - Eigen::MatrixXd::Identity(size, size);
-  equations.row(size).setOnes();
-  const Eigen::VectorXd right = Eigen::VectorXd::Unit(size + 1, size);
-  const PivotedQr qr(equations);
-  // Refined in more digits than are kept, so that they are the same in whichever order the points come.
-  using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-  Wide exact = equations.cast<long double>();
-  exact.topRows(size) = A.transpose().cast<long double>() - Wide::Identity(size, size);
-  Wide wide = Wide::Zero(size, 1);
-  for (int step = 0; step < 4; ++step) {
-    const Wide rest = right.cast<long double>() - exact * wide;
-    wide += Eigen::MatrixXd(qr.solve(rest.cast<double>())).cast<long double>();
-  }
-  const Eigen::VectorXd l = wide.cast<double>();
-  if (qr.rank() < size || !((equations * l - right).norm() <= 1e-10))
-    throw AnalysisError(std::string(local_divergence) + ": eigenvalue 1 is not simple");
+  const std::optional<Eigen::VectorXd> l = left_eigenvector(A, 1, Eigen::VectorXd::Ones(size));
+  if (!l) throw AnalysisError(std::string(local_divergence) + ": eigenvalue 1 is not simple");
   const Eigen::VectorXcd values = size > 1 ? eigenvalues(A) : Eigen::VectorXcd::Ones(1);
   int at_one = 0;
   for (const Complex value : values) at_one += std::abs(value) >= 1 - 1e-9;
   if (at_one != 1) throw AnalysisError(std::string(local_divergence) + ": eigenvalue 1 is not dominant");
-  return l;
+  return *l;
 }
 
 }  // namespace sublimit

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sublimit/base/error.h"
+#include "sublimit/core/detail/submatrix.h"
 #include "sublimit/scheme/detail/refine_impl.h"
 #include "sublimit/scheme/detail/same_scheme.h"
 #include "sublimit/scheme/detail/subdivision_rows.h"
@@ -18,13 +19,6 @@ namespace {
 Scheme<double> without_preparation(Scheme<double> scheme) {
   scheme.preparation.clear();
   return scheme;
-}
-
-bool has_same_bits(const SparseMatrix& a, const SparseMatrix& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
-         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
-         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
-         std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
 }
 
 /// Rows of S around a face: those of all children of its part or, where a vertex of many faces makes that large, those
