@@ -9,8 +9,8 @@
 #include "sublimit/curves/limit_curve.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/polygon_files.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/matrix_market.h"
 
 namespace sublimit::cli {
@@ -35,8 +35,7 @@ void add_closed(CLI::App& command, Common& common) {
 ControlPolygon load_polygon(const CurveJob& job, Progress& progress, bool tangents) {
   const Common& common = *job.common;
   limit_threads(common);
-  const std::string extension = file_extension(common.mesh);
-  if (extension == ".ply" || extension == ".off")
+  if (all_formats().reads(common.mesh, contents::meshes) && !all_formats().reads(common.mesh, contents::polygons))
     throw UnsupportedTopology(common.mesh + ": a mesh; " + common.scheme +
                               " refines curves, a .csv of points or the lines of an .obj");
   progress.step("reading " + common.mesh);
@@ -59,10 +58,11 @@ ControlPolygon load_polygon(const CurveJob& job, Progress& progress, bool tangen
 }
 
 void check_curve_output(const CurveJob& job) {
-  check_output_path(job.output, {".csv", ".obj"});
-  if (!job.matrix.empty()) check_output_path(job.matrix, {".mtx"});
-  if (job.tangents && file_extension(job.output) != ".csv")
-    throw InvalidOption("cannot write " + job.output + ": tangents are columns of a .csv");
+  check_output_path(job.output, all_formats().writers({contents::tangents, contents::polygons}));
+  if (!job.matrix.empty()) check_output_path(job.matrix, all_formats().writers({contents::matrices}));
+  if (job.tangents && !all_formats().writes(job.output, contents::tangents))
+    throw InvalidOption("cannot write " + job.output + ": tangents are columns of a " +
+                        listed(all_formats().writers({contents::tangents}), "or"));
 }
 
 namespace {
@@ -75,9 +75,10 @@ struct Refined {
 
 Refined refined(const CurveJob& job, const CurveScheme<double>& scheme, Progress& progress) {
   Refined result{load_polygon(job, progress, scheme.masks.unknowns() > 1), {}, {}};
-  if (file_extension(job.output) == ".obj" && result.polygon.dimension() > 3)
-    throw InvalidOption(fmt::format("cannot write {}: an .obj has points of 3 coordinates, these have {}; write a .csv",
-                                    job.output, result.polygon.dimension()));
+  if (!all_formats().writes(job.output, contents::tangents) && result.polygon.dimension() > 3)
+    throw InvalidOption(fmt::format("cannot write {}: an {} has points of 3 coordinates, these have {}; write a {}",
+                                    job.output, file_extension(job.output), result.polygon.dimension(),
+                                    listed(all_formats().writers({contents::tangents}), "or")));
   naming_mesh(*job.common, [&] {
     result.levels = refine(scheme, result.polygon, job.levels, telling_levels(progress, job.levels));
     result.unknowns = unknowns(scheme, result.polygon);
@@ -111,9 +112,8 @@ Index unit_tangents(const CurveLevel& level, const std::vector<CurvePlace>& plac
 }  // namespace
 
 void refuse_polygon(const Common& common) {
-  const std::string extension = file_extension(common.mesh);
-  bool polygon = extension == ".csv";
-  if (extension == ".obj") {
+  bool polygon = all_formats().reads(common.mesh, contents::polygons);
+  if (polygon && all_formats().reads(common.mesh, contents::meshes)) {
     const std::string text = read_file(common.mesh);
     const auto has = [&](const char* start) {
       return text.starts_with(start + 1) || text.find(start) != std::string::npos;

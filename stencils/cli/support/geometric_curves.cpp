@@ -9,9 +9,9 @@
 #include "support/curves.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/file_extension.h"
 #include "sublimit/io/detail/polygon_files.h"
 #include "sublimit/scheme/detail/check_levels.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::cli {
 namespace {
@@ -48,9 +48,9 @@ int refine_geometric(const CurveJob& job, const GeometricCurveScheme& scheme) {
   progress.step("writing " + job.output);
   write_polygon(job.output, result);
   progress.step("");
-  if (!job.common->quiet && file_extension(job.output) == ".obj")
-    fmt::print(stderr, "sublimit: note: {} has points alone; a .csv keeps the tangents, so that refining can go on\n",
-               job.output);
+  if (!job.common->quiet && !all_formats().writes(job.output, contents::tangents))
+    fmt::print(stderr, "sublimit: note: {} has points alone; a {} keeps the tangents, so that refining can go on\n",
+               job.output, listed(all_formats().writers({contents::tangents}), "or"));
   return 0;
 }
 
