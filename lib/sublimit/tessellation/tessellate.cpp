@@ -117,7 +117,8 @@ Tessellation tessellate(const Patches& patches, const TessellationOptions& optio
   check_above_rounding(points_in_space(patches.points()), wanted);
   const PartedPatches surface(patches.set(), patches.points());
   if (const std::string why = surface.without_parts(); !why.empty())
-    throw UnsupportedTopology(why + ", so that no distance of triangles from it is proved");
+    throw UnsupportedTopology(
+        why + ", so that no distance of triangles from it is proved; `sample --grid N` has points of it");
   int degree = 1;
   const FindParts find_parts = [&](Index face, PieceParts& cutter, std::vector<PiecePart>& out) {
     surface.find_parts(face, cutter, out);

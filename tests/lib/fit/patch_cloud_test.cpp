@@ -8,7 +8,6 @@
 #include "meshes/construction_data.h"
 #include "meshes/free_form_shapes.h"
 #include "sublimit/fit/cloud_fit.h"
-#include "sublimit/schemes/schemes.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
 

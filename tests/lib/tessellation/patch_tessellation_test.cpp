@@ -13,10 +13,8 @@
 #include "meshes/construction_data.h"
 #include "meshes/free_form_shapes.h"
 #include "sublimit/base/error.h"
-#include "sublimit/patches/constructions/screw_surface.h"
 #include "sublimit/patches/constructions/triangle_patch.h"
 #include "sublimit/patches/detail/free_form_patches.h"
-#include "sublimit/schemes/schemes.h"
 #include "sublimit/tessellation/tessellate.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
@@ -214,6 +212,10 @@ TEST(PatchTessellation, SaysWhatItCannot) {
   expect_error<InvalidParameter>([&] { (void)tessellate(patches, {.chord = 0.1, .rates = {1}}); },
                                  {"rates are of the edges of a mesh"});
   expect_error<InvalidParameter>([&] { (void)tessellate(patches, {.chord = 1e-30}); }, {"rounded"});
+  RationalShape with_pole = pipe();
+  with_pole.columns.row(4) *= -1;
+  expect_error<UnsupportedTopology>([&] { (void)tessellate(patches_of(with_pole), {.chord = 0.1}); },
+                                    {"face 1, of patch 0", "denominator", "sample --grid"});
   expect_error<ResourceError>([&] { (void)tessellate(patches, {.chord = 1e-3, .max_triangles = 10}); },
                               {"more than 10 triangles"});
 }
