@@ -12,8 +12,8 @@
 #include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/geometric/torus_pieces.h"
 #include "sublimit/report/page/drawing.h"
+#include "sublimit/report/page/page.h"
 #include "sublimit/report/page/plot.h"
-#include "sublimit/report/page/style.h"
 #include "truth/deviation.h"
 
 namespace sublimit::bench {
@@ -82,14 +82,13 @@ std::string plot(const Subject& subject, const std::vector<Deviation>& rows) {
       if (row.level > 0) series.points.emplace_back(row.level, column.of(row));
     plot.series.push_back(std::move(series));
   }
-  return page::draw(plot).svg;
+  return page::string(page::at(page::figure(plot), "svg"));
 }
 
 /// Plots beside each other, and below them what the signs mean.
 std::string picture(const std::vector<std::string>& plots) {
   const double width = 390, height = 330;
-  std::string body =
-      std::string("<style>") + page::style + "</style><rect width=\"100%\" height=\"100%\" fill=\"#fcfbf8\"/>";
+  std::string body = "<style>" + page::style() + "</style><rect width=\"100%\" height=\"100%\" fill=\"#fcfbf8\"/>";
   for (size_t i = 0; i < plots.size(); ++i)
     body += "<g transform=\"translate(" + std::to_string(5 + int(width) * int(i)) +
             " 0)\"><svg width=\"380\" height=\"280\"" + plots[i].substr(std::string("<svg").size()) + "</g>";

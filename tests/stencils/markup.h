@@ -42,8 +42,8 @@ inline Markup read_markup(std::string_view text) {
   std::size_t i = 0;
   while (i < text.size() && markup.fault.empty()) {
     const std::size_t tag = text.find('<', i);
-    if (!open.empty() && open.back() == "style") {  // style sheets are no markup
-      i = text.find("</style>", i);
+    if (!open.empty() && (open.back() == "style" || open.back() == "script")) {  // no markup
+      i = text.find("</" + open.back() + ">", i);
     } else {
       check_text(i, std::min(tag, text.size()));
       i = tag;

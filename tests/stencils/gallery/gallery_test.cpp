@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "stencils/browser.h"
 #include "stencils/cli_program.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
@@ -33,9 +35,20 @@ TEST(Gallery, FilesAreWrittenAllOrNone) {
   EXPECT_EQ(read_file(directory / "c.svg"), "c");
 }
 
+/// What the page carries for its script.
+Json carried(const std::string& html) {
+  const std::string mark = "id=\"gallery\">";
+  const size_t begin = html.find(mark) + mark.size();
+  return Json::parse(html.substr(begin, html.find("</script>", begin) - begin));
+}
+
 /// Every file that the page shows or points to.
-std::vector<std::string> shown(const std::string& html) {
+std::vector<std::string> shown(std::string html) {
   std::vector<std::string> files;
+  const Json data = carried(html);
+  for (const Json& section : data["sections"])
+    for (const Json& row : section["rows"]) files.push_back(row["picture"]);
+  html.erase(html.find("<script"));
   for (const std::string attribute : {"src=\"", "href=\""})
     for (size_t at = html.find(attribute); at != std::string::npos; at = html.find(attribute, at + 1)) {
       const size_t begin = at + attribute.size();
@@ -52,13 +65,26 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
   const std::string says = expect_done(sublimit(arguments)).out;
 
   const std::string html = read_file(gallery / "index.html");
-  size_t surfaces = 0;
+  std::multiset<std::pair<std::string, std::string>> rows;  // names and pictures
+  const Json data = carried(html);
+  for (const Json& section : data["sections"])
+    for (const Json& row : section["rows"]) {
+      rows.emplace(row["name"], row["picture"]);
+      EXPECT_NE(row["source"], "");
+      EXPECT_GE(row["numbers"].size(), 2u);
+    }
+  EXPECT_GE(data["patches"].size(), 22u);
+  EXPECT_EQ(data["stitched"].size(), 2u);
+  const auto count_of_rows = [&](const std::string& scheme) {
+    return std::ranges::count_if(rows, [&](const auto& row) { return row.first == scheme; });
+  };
+  std::ptrdiff_t surfaces = 0;
   for (const Scheme<double>& scheme : all_schemes()) {
     SCOPED_TRACE(scheme.name);
-    const size_t cages = scheme.face_size() == 3 ? 3 : 4;
-    EXPECT_EQ(count_of(html, "<h3>" + scheme.name + "</h3>"), cages);
+    const std::ptrdiff_t cages = scheme.face_size() == 3 ? 3 : 4;
+    EXPECT_EQ(count_of_rows(scheme.name), cages);
     for (const char* cage : {"cube-tetrahedral", "cube-irregular", "tetrahedron"})
-      EXPECT_EQ(count_of(html, "src=\"" + scheme.name + "-" + cage + ".svg\""), 1u) << cage;
+      EXPECT_EQ(rows.count({scheme.name, scheme.name + "-" + cage + ".svg"}), 1u) << cage;
     surfaces += cages;
   }
   std::vector<std::string> curves;
@@ -66,14 +92,14 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
   for (const GeometricCurveScheme& scheme : all_geometric_schemes()) curves.push_back(scheme.name);
   for (const std::string& scheme : curves) {
     SCOPED_TRACE(scheme);
-    EXPECT_EQ(count_of(html, "<h3>" + scheme + "</h3>"), 2u);
+    EXPECT_EQ(count_of_rows(scheme), 2);
     for (const char* polygon : {"open", "closed"}) {
-      EXPECT_EQ(count_of(html, "src=\"" + scheme + "-" + polygon + ".svg\""), 1u) << polygon;
+      EXPECT_EQ(rows.count({scheme, scheme + "-" + polygon + ".svg"}), 1u) << polygon;
       EXPECT_EQ(count_of(read_file(gallery / (scheme + "-" + polygon + ".svg")), ">level "), 4u) << polygon;
     }
   }
   const std::vector<std::string> files = shown(html);
-  EXPECT_GE(files.size(), surfaces + 2);
+  EXPECT_GE(std::ssize(files), surfaces + 2);
   for (const std::string& file : files) {
     EXPECT_EQ(file.find('/'), std::string::npos) << file << " is not beside the page";
     const std::string text = read_file(gallery / file);
@@ -91,7 +117,7 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
   expect_parts(says, {std::to_string(pictures) + " pictures", "index.html"});
 
   const Json json = Json::parse(read_file(gallery / "measures.json"));
-  EXPECT_EQ(json["surfaces"].size(), surfaces);
+  EXPECT_EQ(std::ssize(json["surfaces"]), surfaces);
   for (const Json& surface : json["surfaces"]) {
     const bool bilinear = surface["scheme"] == "bilinear";
     EXPECT_EQ(surface["mean_distance"].get<double>() < 1e-12, bilinear) << surface;
@@ -113,6 +139,26 @@ TEST(CliGallery, ShowsEverySchemeOnEveryCageAndPolygon) {
   EXPECT_EQ(read_file(directory / "again" / "index.html"), html);
   for (const std::string& file : files)
     EXPECT_EQ(read_file(directory / "again" / file), read_file(gallery / file)) << file;
+}
+
+TEST(CliGallery, PageShowsItsDataInChromium) {
+  Browser browser;
+  SUBLIMIT_NEEDS_BROWSER;
+  const std::string page = make_gallery({.levels = 0, .faces = 200}).back().text;
+  const Json data = carried(page);
+  const std::string count = R"(const count = q => document.querySelectorAll(q).length;
+    const links = [...document.querySelectorAll('nav a')].every(a => document.getElementById(a.getAttribute('href').slice(1)));
+    parent.postMessage(['h3', '.row img[alt]', '#patch-rows tr', '#stitched-rows tr', 'a[href="stitched.html"]']
+      .map(count).join(' ') + ' ' + links + ' ' + count('nav a') + ';', '*');)";
+  browser.add("gallery", replaced(page, "</body>", "<script>" + count + "</script></body>"));
+  browser.add("narrow", with_script(replaced(page, "<img ", "<img width=\"900\" "), "measure_page.js"), 400);
+  const std::string found = browser.read();
+  size_t rows = 0;
+  for (const Json& section : data["sections"]) rows += section["rows"].size();
+  const std::string all = std::to_string(rows);
+  expect_parts(found, {all + " " + all + " " + std::to_string(data["patches"].size()) + " 2 0 true " +
+                           std::to_string(data["sections"].size() + 3) + ";",
+                       "measured narrow.html: 0 wrong"});
 }
 
 TEST(CliGallery, UnwritablePlacesAreToldBeforeWorkStarts) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Classical surfaces in the gallery: one panel or more for every kind, nets where they are exact, data on the surfaces,
 // and documents that say the same.
-#include "sublimit/stencils/gallery/patch_pictures.h"
+#include "sublimit/stencils/gallery/patch_exhibits.h"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +13,7 @@
 #include <sstream>
 
 #include "stencils/drawn_panels.h"
-#include "stencils/markup.h"
 #include "sublimit/base/detail/read_file.h"
-#include "sublimit/stencils/gallery/patch_exhibits.h"
-#include "sublimit/stencils/gallery/patch_recipes.h"
 #include "sublimit/source/linear_source.h"
 #include "sublimit/stencils/recipes/detail/recipe.h"
 #include "support/tolerance.h"
@@ -43,7 +40,7 @@ const PatchExhibit& exhibit_named(const std::string& name) {
 }
 
 const std::vector<DrawnPanel>& drawn_patches() {
-  static const std::vector<DrawnPanel> all = read_panels(patch_pictures().files[0].second);
+  static const std::vector<DrawnPanel> all = read_panels(patch_pictures().files[0].text);
   return all;
 }
 
@@ -74,13 +71,13 @@ TEST(PatchPictures, HaveAPanelForEveryKindOfSurface) {
 }
 
 TEST(PatchPictures, AreBesideTheRecipesThatTheyAreMadeFrom) {
-  const PatchPictures pictures = patch_pictures();
+  const GalleryPart pictures = patch_pictures();
   ASSERT_EQ(pictures.files.size(), 2u);
-  EXPECT_EQ(pictures.files[0].first, pictures.section.picture);
-  EXPECT_EQ(pictures.files[0].second.find("nan"), std::string::npos);
-  EXPECT_EQ(pictures.files[0].second, patch_pictures().files[0].second);
-  EXPECT_EQ(pictures.files[1].first, "patches.json");
-  EXPECT_EQ(parse_recipes(pictures.files[1].second, "patches.json").size(), shown_patches().size());
+  EXPECT_EQ(pictures.files[0].name, "patches.svg");
+  EXPECT_EQ(pictures.files[0].text.find("nan"), std::string::npos);
+  EXPECT_EQ(pictures.files[0].text, patch_pictures().files[0].text);
+  EXPECT_EQ(pictures.files[1].name, "patches.json");
+  EXPECT_EQ(parse_recipes(pictures.files[1].text, "patches.json").size(), shown_patches().size());
   for (const Recipe& recipe : shown_recipes()) EXPECT_TRUE(recipe.notes.empty()) << recipe.place;
 }
 
@@ -204,17 +201,13 @@ TEST(PatchPictures, FillThePanelsAndStayInThem) {
   }
 }
 
-TEST(PatchPictures, SectionIsWellFormedAndSaysWhatPanelsSay) {
-  const PageSection section = patch_pictures().section;
-  const std::string html = page("overview.svg", std::vector{section});
-  EXPECT_EQ(read_markup(html).fault, "");
-  EXPECT_EQ(read_markup(html).ids.at("patches"), 1);
-  ASSERT_EQ(section.table.rows.size(), shown_patches().size());
-  for (size_t i = 0; i < section.table.rows.size(); ++i) {
-    const std::vector<std::string>& row = section.table.rows[i];
-    ASSERT_EQ(row.size(), section.table.columns.size());
-    EXPECT_EQ(row[0], shown_patches()[i].name);
-    EXPECT_TRUE(shown_patches()[i].panel.note.ends_with(row[4]));
+TEST(PatchPictures, RowsSayWhatPanelsSay) {
+  const Json rows = patch_pictures().rows;
+  ASSERT_EQ(rows.size(), shown_patches().size());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), 6u);
+    EXPECT_EQ(rows[i][0], shown_patches()[i].name);
+    EXPECT_TRUE(shown_patches()[i].panel.note.ends_with(rows[i][4].get<std::string>()));
   }
 }
 

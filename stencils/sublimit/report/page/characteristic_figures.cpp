@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/report/page/characteristic_figures.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "sublimit/report/page/bands.h"
 #include "sublimit/report/page/drawing.h"
+#include "sublimit/report/page/figures.h"
 #include "sublimit/report/page/map_net.h"
 #include "sublimit/stencils/picture/picture.h"
 
@@ -22,23 +21,9 @@ double turned(const MapNet& net, const std::vector<int>& face) {
   return sum;
 }
 
-std::string jacobian_words(const Json& jacobian) {
-  if (jacobian.is_null()) return {};
-  const int sign = whole(at(jacobian, "sign"));
-  std::string words = sign > 0   ? "The Jacobian is positive everywhere"
-                      : sign < 0 ? "The Jacobian is negative everywhere"
-                                 : "<b>The Jacobian changes its sign: the map folds</b>";
-  if (number(at(jacobian, "least")) && number(at(jacobian, "greatest")))
-    words += ", from " + shown(at(jacobian, "least"), 3) + " to " + shown(at(jacobian, "greatest"), 3);
-  const std::string by = string(at(jacobian, "by"));
-  if (by == "enclosure") words += " (enclosed)";
-  if (by == "floating") words += " (in floating point)";
-  return words + ".";
-}
-
 }  // namespace
 
-std::string characteristic_map_figure(const Json& neighborhood, const std::string& name) {
+Json characteristic_map_figure(const Json& neighborhood, const std::string& name) {
   const Json& map = at(neighborhood, "characteristic_map");
   const MapNet net = map_net(map);
   if (net.points.empty()) return {};
@@ -74,16 +59,17 @@ std::string characteristic_map_figure(const Json& neighborhood, const std::strin
     if (polyline.size() > 1) add(data, polyline, false);
   if (!data.data().empty()) body += path(data.data(), "curve l0 thin");
   body += circle(fit.x(Point(0, 0)), fit.y(Point(0, 0)), 3, "plus");
-  std::vector<std::pair<std::string, std::string>> items = {{swatch("plus-soft"), "positive"}};
+  Legend items = {{swatch("plus-soft"), "positive"}};
   if (!wrong.data().empty()) items.emplace_back(swatch("minus"), "turned over");
-  return figure(drawing(fit.width, fit.height, "Characteristic map, " + name,
-                        std::to_string(net.faces.size()) + " faces of its net and the images of parameter lines", body),
-                legend(items) + "<b>Characteristic map.</b> " +
-                    (lines.empty() ? "Its control net. " : "Images of the parameter lines over its control net. ") +
-                    jacobian_words(at(map, "jacobian")));
+  Json drawn =
+      figure(drawing(fit.width, fit.height, "Characteristic map, " + name,
+                     std::to_string(net.faces.size()) + " faces of its net and the images of parameter lines", body),
+             items);
+  drawn["lines"] = !lines.empty();
+  return drawn;
 }
 
-std::string eigenfunction_figure(const Json& neighborhood, const std::string& name) {
+Json eigenfunction_figure(const Json& neighborhood, const std::string& name) {
   const MapNet net = map_net(at(neighborhood, "characteristic_map"));
   if (net.faces.empty()) return {};
   double radius = 0;
@@ -129,11 +115,7 @@ std::string eigenfunction_figure(const Json& neighborhood, const std::string& na
   options.ground_shadow = false;
   options.plate = false;
   options.title = "Eigenfunctions, " + name;
-  return figure(
-      svg_picture(panels, options),
-      legend({{swatch_of("#d9804a"), "above"}, {swatch_of("#4d87ba"), "below zero"}}) +
-          "<b>Eigenfunctions</b> over the characteristic map: what remains of a surface when position and tangent "
-          "plane are taken away.");
+  return figure(svg_picture(panels, options), {{swatch_of("#d9804a"), "above"}, {swatch_of("#4d87ba"), "below zero"}});
 }
 
 }  // namespace sublimit::page

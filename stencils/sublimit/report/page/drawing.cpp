@@ -1,26 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/report/page/drawing.h"
 
+#include <fmt/core.h>
+
 namespace sublimit::page {
 
 using svg::pixels;
 
+std::string digits(double value, int count) {
+  if (value == 0) return "0";
+  std::string text = fmt::format("{:.{}g}", value, count);
+  const std::size_t e = text.find('e');
+  if (e != std::string::npos) {  // 1e-05 -> 1e-5
+    std::size_t first = e + 2;
+    while (first + 1 < text.size() && text[first] == '0') text.erase(first, 1);
+    if (text[e + 1] == '+') text.erase(e + 1, 1);
+  }
+  for (std::size_t at = 0; (at = text.find('-', at)) != std::string::npos;) text.replace(at, 1, "−");
+  return text;
+}
+
 std::string drawing(double width, double height, const std::string& title, const std::string& description,
                     const std::string& body) {
   std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 " + pixels(width) + " " +
-                     pixels(height) + "\"><title>" + plain(title) + "</title>";
-  if (!description.empty()) text += "<desc>" + plain(description) + "</desc>";
+                     pixels(height) + "\"><title>" + escaped(title) + "</title>";
+  if (!description.empty()) text += "<desc>" + escaped(description) + "</desc>";
   return text + "\n" + body + "</svg>\n";
 }
 
-std::string figure(const std::string& svg, const std::string& caption, bool broad) {
+Json figure(const std::string& svg, const Legend& legend) {
   if (svg.empty()) return {};
-  return std::string(broad ? "<figure class=\"broad\">" : "<figure>") + svg + "<figcaption>" + caption +
-         "</figcaption></figure>\n";
-}
-
-std::string figures(const std::string& all) {
-  return all.empty() ? std::string() : "<div class=\"figures\">\n" + all + "</div>\n";
+  Json figure = {{"svg", svg}};
+  if (!legend.empty()) figure["legend"] = legend;
+  return figure;
 }
 
 std::string text(double x, double y, const std::string& words, TextStyle style) {
@@ -92,15 +104,6 @@ std::string mark(int kind, double x, double y, double size) {
     default:
       return circle(x, y, .62 * s, css);
   }
-}
-
-std::string legend(const std::vector<std::pair<std::string, std::string>>& items) {
-  if (items.empty()) return {};
-  std::string text = "<ul class=\"legend\">";
-  for (const auto& [sign, words] : items)
-    text += "<li><svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 22 12\" aria-hidden=\"true\">" + sign +
-            "</svg>" + words + "</li>";
-  return text + "</ul>";
 }
 
 std::string swatch(const std::string& css) {

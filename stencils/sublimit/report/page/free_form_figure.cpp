@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/report/page/free_form_figure.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "sublimit/report/page/bands.h"
 #include "sublimit/report/page/drawing.h"
+#include "sublimit/report/page/figures.h"
 #include "sublimit/stencils/picture/picture.h"
 
 namespace sublimit::page {
@@ -21,38 +20,21 @@ std::optional<Vector3d> point_of(const Json& list) {
   return Vector3d(*x, *y, *z);
 }
 
-/// Lines of one ink.
-class Strokes {
- public:
-  Strokes(Color color, double width) {
-    mesh_.faces = false;
-    mesh_.ink = {color, width};
-  }
-  Index add(const Vector3d& p) {
-    points_.push_back(p);
-    return static_cast<Index>(points_.size()) - 1;
-  }
-  void line(Index a, Index b) { mesh_.creases.push_back({a, b, 1}); }
-  void polyline(const Json& list) {
-    Index last = -1;
+/// Lines of one ink through points of the report, those that there are.
+struct Lines : Strokes {
+  using Strokes::Strokes;
+  void through(const Json& list) {
+    std::optional<Index> last;
     for (const Json& p : list) {
       const std::optional<Vector3d> point = point_of(p);
-      const Index next = point ? add(*point) : -1;
-      if (last >= 0 && next >= 0) line(last, next);
+      const std::optional<Index> next = point ? std::optional(add(*point)) : std::nullopt;
+      if (last && next) line(*last, *next);
       last = next;
     }
   }
-  void put_into(Panel& panel) {
-    if (points_.empty()) return;
-    mesh_.positions.resize(static_cast<Eigen::Index>(points_.size()), 3);
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      mesh_.positions.row(static_cast<Eigen::Index>(i)) = points_[i].transpose();
-    panel.layers.push_back(std::move(mesh_));
+  void put_into(Panel& panel) const {
+    if (PictureMesh lines = mesh(); lines.positions.rows() > 0) panel.layers.push_back(std::move(lines));
   }
-
- private:
-  PictureMesh mesh_;
-  std::vector<Vector3d> points_;
 };
 
 /// Colours of what a seam or a joint is.
@@ -93,7 +75,7 @@ void add_combs(Panel& panel, const Json& curves, double size) {
   const double usual = lengths[lengths.size() * 95 / 100];
   if (!(usual > 0)) return;
   const double scale = .12 * size / usual, longest = .2 * size;
-  Strokes teeth({.55, .66, .76}, .7), ends({.23, .43, .65}, 1);
+  Lines teeth({.55, .66, .76}, .7), ends({.23, .43, .65}, 1);
   each([&](const Json& points, const Json& curvature) {
     Index last = -1;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -105,7 +87,7 @@ void add_combs(Panel& panel, const Json& curves, double size) {
       Vector3d tooth = -scale * *K;
       if (tooth.norm() > longest) tooth *= longest / tooth.norm();
       const Vector3d tip = *p + tooth;
-      teeth.line(teeth.add(*p), teeth.add(tip));
+      teeth.line(*p, tip);
       const Index next = ends.add(tip);
       if (last >= 0) ends.line(last, next);
       last = next;
@@ -140,11 +122,11 @@ PictureOptions options_of(const Json& report) {
 
 }  // namespace
 
-std::string free_form_figure(const Json& report) {
+Json free_form_figure(const Json& report) {
   Panel panel;
   PictureMesh mesh = mesh_of(at(report, "surface"));
   const bool has_surface = !mesh.face_sizes.empty() && mesh.positions.allFinite();
-  std::vector<std::pair<std::string, std::string>> items;
+  Legend items;
   if (has_surface) {
     mesh.color = {.74, .79, .82};
     mesh.ink = {{.45, .52, .58}, .6};
@@ -159,7 +141,7 @@ std::string free_form_figure(const Json& report) {
     }
     panel.layers.push_back(std::move(mesh));
   }
-  Strokes net({.62, .56, .44}, .5);
+  Lines net({.62, .56, .44}, .5);
   const Json &points = at(at(report, "net"), "points"), &edges = at(at(report, "net"), "edges");
   Index count = 0;
   bool complete = true;
@@ -179,21 +161,21 @@ std::string free_form_figure(const Json& report) {
   const Json& box = at(report, "box");
   const std::optional<Vector3d> low = point_of(at(box, 0)), high = point_of(at(box, 1));
   if (low && high) add_combs(panel, curves, (*high - *low).norm());
-  Strokes drawn({.14, .18, .26}, 1.8);
+  Lines drawn({.14, .18, .26}, 1.8);
   for (const Json& curve : curves)
-    for (const Json& piece : at(curve, "pieces")) drawn.polyline(at(piece, "points"));
+    for (const Json& piece : at(curve, "pieces")) drawn.through(at(piece, "points"));
   drawn.put_into(panel);
 
   std::array<std::size_t, seam_inks.size()> counts{};
   for (const std::size_t kind : {4u, 3u, 2u, 1u, 0u, 5u}) {  // the worst on top
-    Strokes strokes(seam_inks[kind].color, kind == 4 ? 1.2 : kind == 3 ? 1.4 : 2.4);
+    Lines strokes(seam_inks[kind].color, kind == 4 ? 1.2 : kind == 3 ? 1.4 : 2.4);
     for (const Json& seam : at(at(report, "seams"), "list"))
-      if (ink_of(seam) == kind) strokes.polyline(at(seam, "points")), ++counts[kind];
-    Strokes discs(seam_inks[kind].color, 5);  // lines without length have round ends
+      if (ink_of(seam) == kind) strokes.through(at(seam, "points")), ++counts[kind];
+    Lines discs(seam_inks[kind].color, 5);  // lines without length have round ends
     for (const Json& joint : at(at(report, "joints"), "list"))
       if (ink_of(joint) == kind) {
         ++counts[kind];
-        if (const std::optional<Vector3d> p = point_of(at(joint, "at"))) discs.line(discs.add(*p), discs.add(*p));
+        if (const std::optional<Vector3d> p = point_of(at(joint, "at"))) discs.dot(*p);
       }
     strokes.put_into(panel);
     discs.put_into(panel);
@@ -203,11 +185,9 @@ std::string free_form_figure(const Json& report) {
       items.emplace_back(swatch_of(hex(seam_inks[kind].color)),
                          std::string(seam_inks[kind].words) + ": " + std::to_string(counts[kind]));
   if (panel.layers.empty()) return {};
-  std::string says =
-      has_surface ? "<b>The patches</b> with isolines and control nets" : "<b>The curves</b> with control polygons";
-  if (curves.is_array() && !curves.empty()) says += ", combs of the curvature on the outside";
-  return figure(svg_picture({panel}, options_of(report)),
-                legend(items) + says + "; seams and joints are coloured by what was measured.", true);
+  Json shown = figure(svg_picture({panel}, options_of(report)), items);
+  shown["surface"] = has_surface;
+  return shown;
 }
 
 }  // namespace sublimit::page

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// A continuity report as one self-contained page of HTML: no network access, no scripts, pictures inline.
+// A continuity report as one self-contained page of HTML that needs no network: pictures inline,
+// sentences and tables put together by its script (report.html).
 #include <nlohmann/json.hpp>
 
 #include <string>
@@ -19,5 +20,10 @@ std::string report_page(const nlohmann::ordered_json& report);
 /// Returns the first figure of the page as the text of an SVG file; empty if it has none.
 /// @throws FormatError  as report_page
 std::string report_picture(const nlohmann::ordered_json& report);
+
+namespace page {
+/// Returns the style sheet of pages, which SVG files carry too.
+std::string style();
+}  // namespace page
 
 }  // namespace sublimit

@@ -63,7 +63,7 @@ std::vector<double> ticks(double low, double high, int about) {
   return all;
 }
 
-Drawn draw(const Plot& plot) {
+Json figure(const Plot& plot) {
   Range xs, ys;
   for (const Series& s : plot.series) {
     for (const auto& [x, y] : s.points) {
@@ -98,16 +98,16 @@ Drawn draw(const Plot& plot) {
     body += text(x(v), y.from + 17, digits(std::abs(v) < 1e-12 ? 0 : v, 4), {"middle", "quiet"});
   }
   body += line(x.from, y.from, x.to, y.from, "frame");
-  body += text(x.from - 40, 16, plain(plot.y_name), {"start", "quiet"});
-  body += text(x.to, plot.height - 5, plain(plot.x_name), {"end", "quiet"});
+  body += text(x.from - 40, 16, escaped(plot.y_name), {"start", "quiet"});
+  body += text(x.to, plot.height - 5, escaped(plot.x_name), {"end", "quiet"});
   body += '\n';
   for (const Plot::Rule& rule : plot.rules) {
     if (plot.log_y && rule.y <= 0) continue;
     body += line(x.from, y(rule.y), x.to, y(rule.y), "rule");
-    body += text(x.to, y(rule.y) - 5, plain(rule.name), {"end", nullptr});
+    body += text(x.to, y(rule.y) - 5, escaped(rule.name), {"end", nullptr});
   }
 
-  std::vector<std::pair<std::string, std::string>> names;
+  Legend names;
   for (const Series& s : plot.series) {
     const std::string css = s.dashed ? "rule" : "curve l" + std::to_string(s.kind % 8) + (s.faint ? " faint" : "");
     if (s.line) {
@@ -133,12 +133,7 @@ Drawn draw(const Plot& plot) {
     if (s.marks) sign += mark(s.kind, 11, 6, s.faint ? 3.2 : 3.6);
     names.emplace_back(sign, s.name);
   }
-  return {drawing(plot.width, plot.height, plot.title, plot.description, body), legend(names)};
-}
-
-std::string figure(const Plot& plot, const std::string& caption, bool broad) {
-  const Drawn drawn = draw(plot);
-  return figure(drawn.svg, drawn.legend + caption, broad);
+  return figure(drawing(plot.width, plot.height, plot.title, plot.description, body), names);
 }
 
 }  // namespace sublimit::page

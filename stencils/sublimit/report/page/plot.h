@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/report/page/json.h"
+
 namespace sublimit::page {
 
 struct Series {
-  std::string name;  ///< name in the legend, HTML; empty: not in the legend
+  std::string name;  ///< name in the legend; empty: not in the legend
   std::vector<std::pair<double, std::optional<double>>> points = {};
   int kind = 0;  ///< number of the colour and mark
   bool marks = true, line = true, faint = false, dashed = false;
@@ -31,14 +33,8 @@ struct Plot {
   double width = 380, height = 250;
 };
 
-/// A plot as SVG, and its legend; both are empty if no series has a point.
-struct Drawn {
-  std::string svg, legend;
-};
-Drawn draw(const Plot& plot);
-
-/// Returns the figure of a plot with a caption.
-std::string figure(const Plot& plot, const std::string& caption, bool broad = false);
+/// Returns the figure of a plot; null if no series has a point.
+Json figure(const Plot& plot);
 
 /// Returns about so many round numbers in an interval.
 std::vector<double> ticks(double low, double high, int about);

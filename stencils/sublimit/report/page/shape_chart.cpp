@@ -2,16 +2,18 @@
 // The shape chart of Karciauskas, Peters and Reif 2004: near an extraordinary point a surface looks like its central
 // surface, the graph of a f0 + b fc + c fs over the characteristic map. The sign of its Gauss curvature depends only on
 // the direction of (a, b, c); (b, c) with b^2 + c^2 <= 1 and a = sqrt(1 - b^2 - c^2) make a disc.
-#include <Eigen/Core>
+#include <fmt/core.h>
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
 
 #include "sublimit/core/detail/dense_decompositions.h"
-#include "sublimit/report/page/characteristic_figures.h"
 #include "sublimit/report/page/drawing.h"
+#include "sublimit/report/page/figures.h"
 #include "sublimit/report/page/map_net.h"
 
 namespace sublimit::page {
@@ -76,7 +78,7 @@ void normalize(std::vector<Eigen::Vector3d>& hessians) {
 
 }  // namespace
 
-std::string shape_chart_figure(const Json& neighborhood, const std::string& name) {
+Json shape_chart_figure(const Json& neighborhood, const std::string& name) {
   const std::optional<double> mu = number(at(neighborhood, "mu"));
   const MapNet net = map_net(at(neighborhood, "characteristic_map"));
   if (!mu || net.faces.empty()) return {};
@@ -115,37 +117,30 @@ std::string shape_chart_figure(const Json& neighborhood, const std::string& name
   constexpr int cells = 36;
   constexpr double size = 250, left = 65, top = 18, cell = size / cells;
   std::string parts[3];  // elliptic, hyperbolic, both
-  int counts[3] = {};
+  const auto kind_at = [&](int row, int column) {
+    const double b = (2. * column + 1) / cells - 1, c = 1 - (2. * row + 1) / cells;
+    if (b * b + c * c > 1) return -1;
+    const double a = std::sqrt(1 - b * b - c * c);
+    bool bowls = true, saddles = true;
+    for (std::size_t i = 0; i < places; ++i) {
+      const Eigen::Vector3d h = a * f0[i] + b * fc[i] + c * fs[i];
+      const double det = h[0] * h[2] - h[1] * h[1], noise = 1e-9 * h.squaredNorm();
+      bowls &= det > -noise, saddles &= det < noise;
+    }
+    return bowls && !saddles ? 0 : saddles && !bowls ? 1 : 2;
+  };
+  const auto tenths = [&](double pixels) { return static_cast<int>(std::lround(10 * pixels)); };
   for (int row = 0; row < cells; ++row) {
-    int run = 0, last = -1;
-    const auto finish = [&](int column) {
-      if (last >= 0) {
-        const int x = static_cast<int>(std::lround(10 * (left + (column - run) * cell))),
-                  y = static_cast<int>(std::lround(10 * (top + row * cell))),
-                  w = static_cast<int>(std::lround(10 * (left + column * cell))) - x,
-                  h = static_cast<int>(std::lround(10 * (top + (row + 1) * cell))) - y;
-        parts[last] += "M" + std::to_string(x) + " " + std::to_string(y) + "h" + std::to_string(w) + "v" +
-                       std::to_string(h) + "h" + std::to_string(-w) + "z";
-      }
-      run = 0;
-    };
-    for (int column = 0; column <= cells; ++column) {
-      const double b = (2. * column + 1) / cells - 1, c = 1 - (2. * row + 1) / cells;
-      int kind = -1;
-      if (column < cells && b * b + c * c <= 1) {
-        const double a = std::sqrt(1 - b * b - c * c);
-        bool bowls = true, saddles = true;
-        for (std::size_t i = 0; i < places; ++i) {
-          const Eigen::Vector3d h = a * f0[i] + b * fc[i] + c * fs[i];
-          const double det = h[0] * h[2] - h[1] * h[1], noise = 1e-9 * h.squaredNorm();
-          bowls &= det > -noise, saddles &= det < noise;
-        }
-        kind = bowls && !saddles ? 0 : saddles && !bowls ? 1 : 2;
-        ++counts[kind];
-      }
-      if (kind != last) finish(column);
-      last = kind;
-      ++run;
+    std::array<int, cells + 1> kinds;
+    for (int column = 0; column < cells; ++column) kinds[column] = kind_at(row, column);
+    kinds[cells] = -2;
+    for (int begin = 0, end = 0; begin < cells; begin = end) {  // runs of one kind
+      while (kinds[end] == kinds[begin]) ++end;
+      if (kinds[begin] < 0) continue;
+      const svg::Spot low{tenths(left + begin * cell), tenths(top + row * cell)},
+          high{tenths(left + end * cell), tenths(top + (row + 1) * cell)};
+      parts[kinds[begin]] +=
+          fmt::format("M{} {}h{}v{}h{}z", low.x, low.y, high.x - low.x, high.y - low.y, low.x - high.x);
     }
   }
   const char* const css[3] = {"minus-soft", "plus-soft", "mix-soft"};
@@ -154,20 +149,16 @@ std::string shape_chart_figure(const Json& neighborhood, const std::string& name
     if (!parts[i].empty())
       body += "<path transform=\"scale(.1)\" class=\"" + std::string(css[i]) + "\" d=\"" + parts[i] + "\"/>\n";
   body += "<circle cx=\"190\" cy=\"143\" r=\"125\" class=\"frame\"/>";
-  if (counts[0] > 0) body += text(190, 147, "bowls", {"middle", nullptr});
-  if (counts[1] > 0) body += text(190, 38, "saddles", {"middle", nullptr});
-  std::vector<std::pair<std::string, std::string>> items;
+  if (!parts[0].empty()) body += text(190, 147, "bowls", {"middle", nullptr});
+  if (!parts[1].empty()) body += text(190, 38, "saddles", {"middle", nullptr});
+  Legend items;
   const char* const words[3] = {"elliptic", "hyperbolic", "both in one surface"};
   for (int i = 0; i < 3; ++i)
-    if (counts[i] > 0) items.emplace_back(swatch(css[i]), words[i]);
-  std::string caption =
-      "<b>Shape chart.</b> Each point of the disc is a mixture of the leading eigenfunctions, the rotationally "
-      "symmetric one in the middle; its colour is the sign of Gauss curvature of the central surface. Sampled on the "
-      "net.";
-  if (bowl.empty())
-    caption += " No rotationally symmetric function decays like μ: every generic surface is a saddle near the point.";
-  if (saddle.empty()) caption += " Only rotationally symmetric functions decay like μ: no generic saddles.";
-  return figure(drawing(380, 286, "Shape chart, " + name, "", body), legend(items) + caption);
+    if (!parts[i].empty()) items.emplace_back(swatch(css[i]), words[i]);
+  Json drawn = figure(drawing(380, 286, "Shape chart, " + name, "", body), items);
+  drawn["bowls"] = !bowl.empty();
+  drawn["saddles"] = !saddle.empty();
+  return drawn;
 }
 
 }  // namespace sublimit::page

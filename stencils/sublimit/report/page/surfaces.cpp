@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/report/page/surfaces.h"
-
+// Figures of limit surfaces: shaded, with reflection lines, coloured by curvature.
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "sublimit/report/page/bands.h"
 #include "sublimit/report/page/drawing.h"
+#include "sublimit/report/page/figures.h"
 #include "sublimit/stencils/picture/camera.h"
 #include "sublimit/stencils/picture/picture.h"
 
@@ -69,16 +69,6 @@ std::string striped(const PictureMesh& mesh, const std::vector<double>& values, 
   return svg_picture({panel}, options);
 }
 
-std::string reflection_figure(const PictureMesh& mesh, const std::string& name, bool small) {
-  if (mesh.vertex_normals.rows() == 0) return {};
-  PictureOptions options = small_picture("Reflection lines, " + name, small);
-  options.tone_step = small ? 16 : 10;  // the stripes say it
-  return figure(
-      striped(mesh, mirrored(mesh, eye_of(options)), small ? 20 : 26, options),
-      "<b>Reflection lines.</b> Stripes of a far world in a mirror: they break where the tangent plane jumps and "
-      "kink where curvature does.");
-}
-
 constexpr int curvature_colors = 9;
 
 /// From hollow (saddle) blue over pale to bulging red.
@@ -134,36 +124,35 @@ std::vector<PictureMesh> colored(const PictureMesh& mesh, const Curvature& curva
   return parts;
 }
 
-std::string curvature_legend(const Curvature& curvature) {
-  std::vector<std::pair<std::string, std::string>> items;
+Legend curvature_legend(const Curvature& curvature) {
+  Legend items;
   for (const int band : {0, 2, 4, 6, 8}) {
     const double middle = curvature.scale * (2. * band + 1 - curvature_colors) / curvature_colors;
-    const std::string value = shown(std::abs(middle) < 1e-9 * curvature.scale ? 0. : middle, 2);
+    const std::string value = digits(std::abs(middle) < 1e-9 * curvature.scale ? 0. : middle, 2);
     items.emplace_back(swatch_of(hex(curvature_color(band))), band == 0                      ? "≤ " + value
                                                               : band == curvature_colors - 1 ? "≥ " + value
                                                                                              : value);
   }
-  return legend(items);
+  return items;
 }
 
 }  // namespace
 
-std::string surface_figures(const Json& surface, const std::string& name, bool small) {
+void add_surface_figures(const Json& surface, const std::string& name, bool small, Json& figures) {
   const PictureMesh mesh = mesh_of(surface);
-  if (mesh.face_sizes.empty() || !mesh.positions.allFinite()) return {};
+  if (mesh.face_sizes.empty() || !mesh.positions.allFinite()) return;
   PictureOptions shaded = small_picture("Limit surface, " + name, small);
   shaded.tone_step = small ? 2 : 1;
-  std::string all = figure(svg_picture({{{mesh}, {}, {}}}, shaded),
-                           "<b>Limit surface</b> of generic control points, the extraordinary point in the middle.");
-  all += reflection_figure(mesh, name, small);
-  const Curvature curvature = gauss_of(surface, mesh, 92);
-  if (!curvature.gauss.empty())
-    all +=
+  figures["surface"] = figure(svg_picture({{{mesh}, {}, {}}}, shaded));
+  if (mesh.vertex_normals.rows() > 0) {
+    PictureOptions options = small_picture("Reflection lines, " + name, small);
+    options.tone_step = small ? 16 : 10;  // the stripes say it
+    figures["reflection"] = figure(striped(mesh, mirrored(mesh, eye_of(options)), small ? 20 : 26, options));
+  }
+  if (const Curvature curvature = gauss_of(surface, mesh, 92); !curvature.gauss.empty())
+    figures["gauss"] =
         figure(svg_picture({{colored(mesh, curvature), {}, {}}}, small_picture("Gauss curvature, " + name, small)),
-               curvature_legend(curvature) +
-                   "<b>Gauss curvature.</b> Blue: saddles; red: bowls. Colours end where eight percent of the points "
-                   "lie beyond.");
-  return all;
+               curvature_legend(curvature));
 }
 
 namespace {
@@ -178,39 +167,12 @@ PictureOptions asset_picture(const PictureMesh& mesh, const std::string& title) 
   return options;
 }
 
-}  // namespace
-
-std::string asset_stripes(const Json& asset) {
-  const PictureMesh mesh = mesh_of(at(asset, "surface"));
-  if (mesh.face_sizes.empty() || !mesh.positions.allFinite() || mesh.vertex_normals.rows() == 0) return {};
-  const std::string of = " of " + string(at(asset, "file"), "the mesh");
-  const auto options = [&](const std::string& what) {
-    PictureOptions picture = asset_picture(mesh, what + of);
-    picture.panel_width = 440;
-    picture.panel_height = 310;
-    picture.tone_step = 16;  // the stripes say it
-    return picture;
-  };
-  const PictureOptions zebra = options("Zebra stripes"), isophotes = options("Isophotes");
-  return figure(striped(mesh, mirrored(mesh, eye_of(zebra)), 26, zebra),
-                "<b>Zebra stripes</b>, a striped far world in a mirror, by exact normals: they break where the tangent "
-                "plane jumps and kink where curvature does.") +
-         figure(
-             striped(mesh, lit(mesh, {.35, .5, .8}), 22, isophotes),
-             "<b>Isophotes</b>, lines of equal light from far away, by exact normals: they jump and kink at the same "
-             "places, whatever the eye sees from where it is.");
-}
-
-std::string asset_figure(const Json& asset) {
-  const Json& surface = at(asset, "surface");
-  const PictureMesh mesh = mesh_of(surface);
-  if (mesh.face_sizes.empty() || !mesh.positions.allFinite()) return {};
+std::string asset_surface(const Json& asset, const PictureMesh& mesh, const Curvature& curvature) {
   PictureOptions options = asset_picture(mesh, "Limit surface of " + string(at(asset, "file"), "the mesh"));
   options.panel_width = 900;
   options.panel_height = 620;
   options.sky_directions = 64;
   options.tone_step = 3;
-  const Curvature curvature = gauss_of(surface, mesh, 80);  // rounded edges would hide the rest
   Panel panel;
   panel.layers = curvature.gauss.empty() ? std::vector<PictureMesh>{mesh} : colored(mesh, curvature);
   const Json& worst = at(asset, "worst");
@@ -258,12 +220,37 @@ std::string asset_figure(const Json& asset) {
                "\" style=\"fill:#22262f;font-weight:700;font-size:12px\">" + l.words + "</text>";
   }
   svg.insert(svg.rfind("</svg>"), numbers + "</g>\n");
-  return figure(
-      svg,
-      (curvature.gauss.empty() ? std::string() : curvature_legend(curvature)) +
-          "<b>The limit surface</b> and its Gauss curvature. Numbers: the worst places, listed below; those behind "
-          "the surface show through.",
-      true);
+  return svg;
+}
+
+}  // namespace
+
+Json mesh_figures(const Json& asset) {
+  Json figures = deviation_figures(at(asset, "seams"));
+  const PictureMesh mesh = mesh_of(at(asset, "surface"));
+  if (mesh.face_sizes.empty() || !mesh.positions.allFinite()) return figures;
+  const Curvature curvature = gauss_of(at(asset, "surface"), mesh, 80);  // rounded edges would hide the rest
+  Json drawn = {{"surface", figure(asset_surface(asset, mesh, curvature),
+                                   curvature.gauss.empty() ? Legend() : curvature_legend(curvature))}};
+  if (mesh.vertex_normals.rows() > 0) {
+    const auto stripes = [&](const char* what, const auto& values, int count) {
+      PictureOptions options = asset_picture(mesh, what + (" of " + string(at(asset, "file"), "the mesh")));
+      options.panel_width = 440;
+      options.panel_height = 310;
+      options.tone_step = 16;  // the stripes say it
+      return figure(striped(mesh, values(options), count, options));
+    };
+    drawn["zebra"] = stripes(
+        "Zebra stripes", [&](const auto& o) { return mirrored(mesh, eye_of(o)); }, 26);
+    drawn["isophotes"] = stripes(
+        "Isophotes",
+        [&](const auto&) {
+          return lit(mesh, {.35, .5, .8});
+        },
+        22);
+  }
+  drawn.update(figures);
+  return drawn;
 }
 
 }  // namespace sublimit::page

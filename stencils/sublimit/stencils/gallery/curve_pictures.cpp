@@ -6,15 +6,10 @@
 #include "sublimit/curves/curve_refine.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
-#include "sublimit/stencils/picture/svg.h"
+#include "sublimit/stencils/picture/picture.h"
 
 namespace sublimit::gallery {
 namespace {
-
-using svg::escaped;
-using svg::pixels;
-
-constexpr double panel_width = 230, panel_height = 170, border = 14, margin = 16, caption_height = 44;
 
 struct NamedPolygon {
   std::string name, title;
@@ -75,78 +70,78 @@ std::vector<Shown> shown(const ControlPolygon& polygon, int levels) {
   return all;
 }
 
-/// The plane onto the paper: the same for all schemes of a polygon.
-struct View {
-  Eigen::Array2d low = Eigen::Array2d::Constant(1e300), high = -low;
-
-  void extend(const Points& points) {
-    low = low.min(points.colwise().minCoeff().transpose().array());
-    high = high.max(points.colwise().maxCoeff().transpose().array());
-  }
-  svg::Spot spot(const Eigen::RowVector2d& p) const {
-    const Eigen::Array2d room(panel_width - 2 * margin, panel_height - 2 * margin);
-    const double scale = (room / (high - low)).minCoeff();
-    const Eigen::Array2d at = (p.transpose().array() - (low + high) / 2) * scale;
-    return svg::spot(panel_width / 2 + at.x(), panel_height / 2 - at.y());
-  }
-};
-
-std::string stroke(const Points& points, bool closed, const View& view, const char* style) {
-  svg::Path path;
-  path.move(view.spot(points.row(0)));
-  for (Eigen::Index i = 1; i < points.rows(); ++i) path.line(view.spot(points.row(i)));
-  if (closed) path.close();
-  return std::string("<path fill=\"none\" ") + style + " d=\"" + path.data() + "\"/>\n";
+Points in_space(const Points& plane) {
+  Points points = Points::Zero(plane.rows(), 3);
+  points.leftCols(2) = plane;
+  return points;
 }
 
-std::string dots(const Points& points, const View& view, const char* style) {
-  svg::Path path;
-  for (Eigen::Index i = 0; i < points.rows(); ++i) path.dot(view.spot(points.row(i)));
-  return std::string("<path fill=\"none\" stroke-linecap=\"round\" ") + style + " d=\"" + path.data() + "\"/>\n";
+/// A polygon with dots at its points.
+void draw(const Points& points, bool closed, const Color& color, double width, double dots, Panel& panel) {
+  Strokes lines(color, width), marks(color, dots);
+  lines.polyline(points);
+  if (closed) lines.line(static_cast<Index>(points.rows()) - 1, 0);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) marks.dot(points.row(i));
+  panel.layers.push_back(lines.mesh());
+  panel.layers.push_back(marks.mesh());
 }
 
 /// A panel a level: the control polygon in grey, the level over it.
-std::string picture(const std::vector<Points>& levels, const ControlPolygon& polygon, bool interpolates,
-                    const View& view) {
+std::vector<Panel> panels(const Shown& shown, const ControlPolygon& polygon) {
+  constexpr Color grey{.73, .71, .66}, blue{.20, .40, .54}, brown{.60, .44, .27};
   const bool closed = polygon.curves[0].closed;
-  const double width = static_cast<double>(levels.size()) * panel_width + 2 * border;
-  const double height = panel_height + caption_height + border;
-  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixels(width) + " " + pixels(height) +
-                     "\" width=\"" + pixels(width) + "\" height=\"" + pixels(height) +
-                     "\" font-family=\"system-ui, sans-serif\" text-anchor=\"middle\">\n"
-                     "<rect width=\"100%\" height=\"100%\" rx=\"16\" fill=\"#f4f2ed\"/>\n";
-  const std::string color = interpolates ? "stroke=\"#9a6f45\"" : "stroke=\"#33658a\"";
-  for (size_t k = 0; k < levels.size(); ++k) {
-    text += "<g transform=\"translate(" + pixels(border + static_cast<double>(k) * panel_width) + " " + pixels(border) +
-            ")\">\n<g transform=\"scale(.1)\" stroke-linejoin=\"round\">\n";
-    text += stroke(polygon.points, closed, view, "stroke=\"#b9b4a8\" stroke-width=\"11\"");
-    text += dots(polygon.points, view, "stroke=\"#b9b4a8\" stroke-width=\"52\"");
-    text += stroke(levels[k], closed, view, (color + " stroke-width=\"18\"").c_str());
-    text += dots(levels[k], view, (color + " stroke-width=\"" + (k < 2 ? "46" : k == 2 ? "38" : "30") + "\"").c_str());
-    text += "</g>\n<text x=\"" + pixels(panel_width / 2) + "\" y=\"" + pixels(panel_height + 17) +
-            "\" font-size=\"13\" font-weight=\"600\" fill=\"#2b2f38\">level " + std::to_string(k) +
-            "</text>\n<text x=\"" + pixels(panel_width / 2) + "\" y=\"" + pixels(panel_height + 33) +
-            "\" font-size=\"9.9\" fill=\"#6a6f7a\">" + std::to_string(levels[k].rows()) + " points</text>\n</g>\n";
+  std::vector<Panel> all;
+  for (size_t k = 0; k < shown.levels.size(); ++k) {
+    Panel& panel = all.emplace_back();
+    panel.caption = "level " + std::to_string(k);
+    panel.note = std::to_string(shown.levels[k].rows()) + " points";
+    draw(in_space(polygon.points), closed, grey, 1.1, 5, panel);
+    draw(in_space(shown.levels[k]), closed, shown.interpolates ? brown : blue, 1.8,
+         k < 2    ? 4.6
+         : k == 2 ? 3.8
+                  : 3,
+         panel);
   }
-  return text + "</svg>\n";
+  return all;
+}
+
+/// The plane onto the paper: the same for all schemes of a polygon.
+PictureOptions view_of(const std::vector<Shown>& all) {
+  PictureOptions options;
+  options.panel_width = 230;
+  options.panel_height = 170;
+  options.caption_size = 13;
+  options.azimuth = options.elevation = options.distance = 0;
+  options.ground_shadow = false;
+  Eigen::RowVector2d low = Eigen::RowVector2d::Constant(1e300), high = -low;
+  for (const Shown& one : all)
+    for (const Points& level : one.levels) {
+      low = low.cwiseMin(level.colwise().minCoeff());
+      high = high.cwiseMax(level.colwise().maxCoeff());
+    }
+  options.in_view = Points::Zero(2, 3);
+  options.in_view.row(0).head(2) = low;
+  options.in_view.row(1).head(2) = high;
+  return options;
 }
 
 }  // namespace
 
-CurvePictures curve_pictures(int levels) {
-  CurvePictures result;
+GalleryPart curve_pictures(int levels) {
+  GalleryPart result;
   for (const NamedPolygon& named : polygons()) {
     const std::vector<Shown> all = shown(named.polygon, levels);
-    View view;
-    for (const Shown& one : all)
-      for (const Points& level : one.levels) view.extend(level);
-    PageSection section{.id = named.name, .title = named.title, .rows = {}};
+    const PictureOptions view = view_of(all);
+    Json rows = Json::array();
     for (const Shown& one : all) {
       const std::string file = one.scheme + "-" + named.name + ".svg";
-      result.files.push_back({file, picture(one.levels, named.polygon, one.interpolates, view)});
-      section.rows.push_back({one.scheme, one.source, {{"limit", one.limit}, {"smoothness", one.smoothness}}, file});
+      result.files.push_back({file, svg_picture(panels(one, named.polygon), view)});
+      rows.push_back({{"name", one.scheme},
+                      {"source", one.source},
+                      {"numbers", {{"limit", one.limit}, {"smoothness", one.smoothness}}},
+                      {"picture", file}});
     }
-    result.sections.push_back(std::move(section));
+    result.rows.push_back({{"id", named.name}, {"title", named.title}, {"rows", rows}});
   }
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,8 +17,8 @@
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/stencils/gallery/curve_pictures.h"
 #include "sublimit/stencils/gallery/exhibit.h"
-#include "sublimit/stencils/gallery/gallery_page.h"
-#include "sublimit/stencils/gallery/patch_pictures.h"
+#include "sublimit/stencils/gallery/gallery_part.h"
+#include "sublimit/stencils/gallery/patch_exhibits.h"
 #include "sublimit/stencils/gallery/stitched.h"
 
 namespace sublimit {
@@ -77,22 +78,22 @@ std::string overview(const std::vector<Work>& work) {
 
 std::string percent(double x) { return fmt::format("{:.3g}\u00a0%", x < 1e-10 ? 0 : 100 * x); }
 
-PageRow page_row(const Work& w, const std::string& source) {
+Json page_row(const Work& w, const std::string& source) {
   const Measured& m = w.exhibit.measured;
   std::string bending;
   for (const Measured::Bending& b : m.bending)
     bending += (bending.empty() ? "" : " \u2192 ") + fmt::format("{:.3f}", b.energy);
-  return {m.scheme,
-          source,
-          {{"volume", percent(m.volume)},
-           {"distance", percent(m.mean_distance) + ", at most " + percent(m.max_distance)},
-           {"symmetry defect", percent(m.symmetry_defect)},
-           {"bending", bending}},
-          w.picture()};
+  return {{"name", m.scheme},
+          {"source", source},
+          {"numbers",
+           {{"volume", percent(m.volume)},
+            {"distance", percent(m.mean_distance) + ", at most " + percent(m.max_distance)},
+            {"symmetry defect", percent(m.symmetry_defect)},
+            {"bending", bending}}},
+          {"picture", w.picture()}};
 }
 
 std::string json(const std::vector<Work>& work) {
-  using Json = nlohmann::ordered_json;
   Json surfaces = Json::array();
   for (const Work& w : work) {
     const Measured& m = w.exhibit.measured;
@@ -111,6 +112,17 @@ std::string json(const std::vector<Work>& work) {
                         {"bending_energy", bending}});
   }
   return Json{{"surfaces", surfaces}}.dump(1) + "\n";
+}
+
+/// The page: the template with its data.
+std::string page(const Json& data) {
+  std::string html =
+#include "gallery.html.inc"
+      ;
+  std::string text = data.dump();
+  for (size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
+  const std::string place = "id=\"gallery\">{}";
+  return html.replace(html.find(place) + place.size() - 2, 2, text);
 }
 
 }  // namespace
@@ -161,25 +173,26 @@ std::vector<GalleryFile> make_gallery(const GalleryOptions& options, const std::
   step();
   files.push_back({"overview.svg", overview(work)});
 
-  std::vector<PageSection> sections;
+  Json sections = Json::array();
   for (const Cage& cage : all_cages) {
-    sections.push_back({.id = cage.name, .title = cage.title, .rows = {}});
+    Json rows = Json::array();
     for (const Work& w : work)
-      if (w.cage == &cage) sections.back().rows.push_back(page_row(w, schemes[w.scheme].source));
+      if (w.cage == &cage) rows.push_back(page_row(w, schemes[w.scheme].source));
+    sections.push_back({{"id", cage.name}, {"title", cage.title}, {"rows", rows}});
   }
-  CurvePictures curves = curve_pictures(options.levels);
-  for (auto& [name, text] : curves.files) files.push_back({name, std::move(text)});
-  for (PageSection& section : curves.sections) sections.push_back(std::move(section));
+  const auto add = [&](GalleryPart part) {
+    std::ranges::move(part.files, std::back_inserter(files));
+    return part.rows;
+  };
+  for (const Json& section : add(curve_pictures(options.levels))) sections.push_back(section);
   step();
-  PatchPictures patches = patch_pictures();
-  for (auto& [name, text] : patches.files) files.push_back({name, std::move(text)});
-  sections.push_back(std::move(patches.section));
+  const Json patches = add(patch_pictures());
   step();
-  StitchedPictures stitched = stitched_pictures(options.report);
-  for (auto& [name, text] : stitched.files) files.push_back({name, std::move(text)});
-  sections.push_back(std::move(stitched.section));
+  const Json stitched = add(stitched_pictures(options.report));
   files.push_back({"measures.json", json(work)});
-  files.push_back({"index.html", page("overview.svg", sections)});
+  files.push_back(
+      {"index.html",
+       page({{"sections", sections}, {"patches", patches}, {"stitched", stitched}, {"report", bool(options.report)}})});
   return files;
 }
 

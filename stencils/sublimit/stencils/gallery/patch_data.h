@@ -15,7 +15,7 @@ struct PatchData {
 };
 
 /// Returns the data of a recipe.
-/// @param recipe  a recipe of the gallery (patch_recipes.h): profiles are in the plane of x and z, paths end in
+/// @param recipe  a recipe of the gallery (patches.json): profiles are in the plane of x and z, paths end in
 ///                their first and last control points, curves that are translated begin at the origin
 /// @throws FormatError  as the readers of recipes
 PatchData patch_data(const JsonValue& recipe);

@@ -9,7 +9,6 @@
 #include "sublimit/patches/constructions/triangle_patch.h"
 #include "sublimit/stencils/gallery/patch_data.h"
 #include "sublimit/stencils/gallery/patch_layers.h"
-#include "sublimit/stencils/gallery/patch_recipes.h"
 #include "sublimit/stencils/recipes/detail/recipe.h"
 
 namespace sublimit::gallery {
@@ -82,6 +81,12 @@ PatchExhibit exhibit_of(const Recipe& recipe, const JsonValue& object) {
 
 }  // namespace
 
+std::string_view patch_recipes() {
+  return
+#include "patches.json.inc"
+      ;
+}
+
 PictureOptions patch_view() {
   PictureOptions options;
   options.panel_width = 200;
@@ -104,6 +109,18 @@ std::vector<PatchExhibit> patch_exhibits() {
   std::vector<PatchExhibit> exhibits;
   for (const Recipe& recipe : parse_recipes(text, name)) exhibits.push_back(exhibit_of(recipe, objects[recipe.index]));
   return exhibits;
+}
+
+GalleryPart patch_pictures() {
+  GalleryPart part;
+  std::vector<Panel> panels;
+  for (const PatchExhibit& exhibit : patch_exhibits()) {
+    panels.push_back(exhibit.panel);
+    part.rows.push_back(
+        {exhibit.name, exhibit.kind, exhibit.degree, std::to_string(exhibit.faces), exhibit.made_of, exhibit.why});
+  }
+  part.files = {{"patches.svg", svg_picture(panels, patch_view())}, {"patches.json", std::string(patch_recipes())}};
+  return part;
 }
 
 }  // namespace sublimit::gallery

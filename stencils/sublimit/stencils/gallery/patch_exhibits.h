@@ -3,8 +3,10 @@
 // The classical surfaces of the gallery: each made from its recipe, as a picture with its net and data, and
 // with a description computed from the surface.
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "sublimit/stencils/gallery/gallery_part.h"
 #include "sublimit/stencils/picture/picture.h"
 
 namespace sublimit::gallery {
@@ -26,10 +28,16 @@ struct PatchExhibit {
   Panel panel;  ///< layers: surface, net if there is one, data other than the net if any
 };
 
-/// Returns an exhibit for each of the recipes (patch_recipes.h), in their order.
+/// Returns the recipes, as a file of them (patches.json).
+std::string_view patch_recipes();
+
+/// Returns an exhibit for each of the recipes, in their order.
 std::vector<PatchExhibit> patch_exhibits();
 
 /// Returns the view of all patch exhibits.
 PictureOptions patch_view();
+
+/// Returns a row for each exhibit, and the files "patches.svg" and "patches.json".
+GalleryPart patch_pictures();
 
 }  // namespace sublimit::gallery

@@ -109,28 +109,18 @@ PictureMesh triangle_net_layer(Index degree, const Points& columns, Coordinates 
 }
 
 PictureMesh data_layer(const PatchData& data, double normal_length) {
-  PictureMesh lines;
-  lines.faces = false;
-  lines.ink = {data_ink, 1.7};
-  Index count = static_cast<Index>(data.points.rows() + data.normals.rows());
-  for (const Points& curve : data.curves) count += static_cast<Index>(curve.rows());
-  lines.positions.resize(count, 3);
-  Index next = 0;
-  for (const Points& curve : data.curves)
-    for (Index i = 0; i < curve.rows(); ++i, ++next) {
-      lines.positions.row(next) = curve.row(i);
-      if (i > 0) lines.creases.push_back({next - 1, next});
-    }
-  for (Index i = 0; i < data.points.rows(); ++i, ++next) {
-    lines.positions.row(next) = data.points.row(i);
-    lines.dots.push_back(next);
+  Strokes lines(data_ink, 1.7);
+  for (const Points& curve : data.curves) lines.polyline(curve);
+  std::vector<Index> dots;
+  for (Index i = 0; i < data.points.rows(); ++i) {
+    dots.push_back(lines.add(data.points.row(i)));
     if (i >= data.normals.rows()) continue;
-    const auto head = static_cast<Index>(count - data.normals.rows() + i);
-    lines.positions.row(head) = data.points.row(i) + normal_length * data.normals.row(i).normalized();
-    lines.creases.push_back({next, head});
+    lines.line(dots.back(), lines.add(data.points.row(i) + normal_length * data.normals.row(i).normalized()));
   }
-  lines.dot_size = .7;
-  return lines;
+  PictureMesh mesh = lines.mesh();
+  mesh.dots = dots;
+  mesh.dot_size = .7;
+  return mesh;
 }
 
 void fit_window(std::vector<PictureMesh>& layers, const PictureOptions& view) {

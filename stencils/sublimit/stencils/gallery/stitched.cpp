@@ -147,7 +147,7 @@ Mesh stitched_mesh() {
   return mesh;
 }
 
-StitchedPictures stitched_pictures(const std::function<std::string(const Mesh&, const std::string&)>& report) {
+GalleryPart stitched_pictures(const std::function<std::string(const Mesh&, const std::string&)>& report) {
   const Part top = lid(), side = wall(top);
   const Mesh mesh = stitched_mesh();
   const Scheme<double> scheme = sublimit::scheme(stitched_scheme);
@@ -165,33 +165,16 @@ StitchedPictures stitched_pictures(const std::function<std::string(const Mesh&, 
       {{surface_of(top, lid_color), surface_of(side, wall_color)}, "two surfaces", "bicubic, of unequal knots"},
       {{whole, net_of(mesh)}, "one mesh", "with their intervals"},
       {{whole}, "its limit", "a vertex of three faces where they meet"}};
-  PictureOptions view = patch_view();
-  StitchedPictures result;
-  const auto words = [](std::pair<Index, double> found, Index faces) {
-    return std::vector<std::string>{std::to_string(faces), std::to_string(found.first),
-                                    fmt::format("{:.2g}", found.second)};
+  GalleryPart result;
+  const auto add_row = [&](const char* name, const Part& part, Index first_face) {
+    const auto [same, largest] = deviation(part, mesh, first_face);
+    result.rows.push_back(
+        {name, std::to_string(part.surface.num_faces()), std::to_string(same), fmt::format("{:.2g}", largest)});
   };
-  std::vector<std::string> lid_row = words(deviation(top, mesh, 0), top.surface.num_faces());
-  std::vector<std::string> wall_row =
-      words(deviation(side, mesh, (lid_points - 1) * (lid_points - 1)), side.surface.num_faces());
-  lid_row.insert(lid_row.begin(), "lid");
-  wall_row.insert(wall_row.begin(), "wall");
-  result.section = {
-      .id = "stitched",
-      .title = "Surfaces stitched around an extraordinary vertex",
-      .rows = {},
-      .text =
-          "<p>A lid and a wall, B-spline surfaces with unequal knots, as one mesh with knot intervals (<a "
-          "href=\"stitched.obj\">stitched.obj</a>) under <code>catmull-clark-intervals</code>: away from the "
-          "seam the limit is what the surfaces were, and where they meet it is smooth, a vertex of three faces "
-          "included" +
-          std::string(report ? " (<a href=\"stitched.html\">report</a>)" : "") + ".</p>\n",
-      .picture = "stitched.svg",
-      .description = "Two surfaces, the mesh that joins them, and its limit",
-      .table = {.columns = {"surface", "faces", "faces that stay as they were", "largest distance elsewhere"},
-                .rows = {lid_row, wall_row}}};
-  result.files = {{"stitched.svg", svg_picture(panels, view)}, {"stitched.obj", format_obj(mesh)}};
-  if (report) result.files.emplace_back("stitched.html", report(mesh, stitched_scheme));
+  add_row("lid", top, 0);
+  add_row("wall", side, (lid_points - 1) * (lid_points - 1));
+  result.files = {{"stitched.svg", svg_picture(panels, patch_view())}, {"stitched.obj", format_obj(mesh)}};
+  if (report) result.files.push_back({"stitched.html", report(mesh, stitched_scheme)});
   return result;
 }
 

@@ -43,6 +43,45 @@ struct PictureMesh {
   Color color = {.42, .60, .70};
 };
 
+/// Lines and discs of one colour and width, point by point, which hide nothing.
+class Strokes {
+ public:
+  Strokes(const Color& color, double width) {
+    mesh_.faces = false;
+    mesh_.ink = {color, width};
+  }
+  Index add(const Eigen::Vector3d& p) {
+    points_.push_back(p);
+    return static_cast<Index>(points_.size()) - 1;
+  }
+  void line(Index a, Index b) { mesh_.creases.push_back({a, b}); }
+  void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    const Index tail = add(a);
+    line(tail, add(b));
+  }
+  /// Adds a line through points; #x3.
+  void polyline(const Points& points) {
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const Index next = add(points.row(i));
+      if (i > 0) line(next - 1, next);
+    }
+  }
+  /// Adds a disc, as wide as lines: a line without length has round ends.
+  void dot(const Eigen::Vector3d& p) { line(p, p); }
+  /// Returns all of them as a layer of a panel.
+  PictureMesh mesh() const {
+    PictureMesh mesh = mesh_;
+    mesh.positions.resize(static_cast<Eigen::Index>(points_.size()), 3);
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      mesh.positions.row(static_cast<Eigen::Index>(i)) = points_[i].transpose();
+    return mesh;
+  }
+
+ private:
+  PictureMesh mesh_;
+  std::vector<Eigen::Vector3d> points_;
+};
+
 struct Panel {
   std::vector<PictureMesh> layers;
   std::string caption;

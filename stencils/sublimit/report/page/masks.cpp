@@ -1,18 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/report/page/mask_diagram.h"
-
+// Masks as diagrams: a disc at each point, with an area by its weight, and the weight as a fraction in or beside it.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "sublimit/report/page/drawing.h"
-#include "sublimit/report/page/exact.h"
+#include "sublimit/report/page/figures.h"
 #include "sublimit/report/page/plane.h"
 
 namespace sublimit::page {
 namespace {
+
+struct Fraction {
+  std::int64_t top = 0, bottom = 1;
+};
+
+/// Weights over a common denominator, as textbooks have them.
+struct Common {
+  std::int64_t denominator = 1;
+  std::vector<std::int64_t> tops;
+};
+
+constexpr std::int64_t greatest_part = 1'000'000;
+
+std::optional<std::int64_t> integer(std::string_view text) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value > greatest_part || value < -greatest_part)
+    return std::nullopt;
+  return value;
+}
+
+/// Reads "9/64" or a whole number; absent for other exact numbers (cosines, roots) and for too many digits.
+std::optional<Fraction> fraction(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const std::string_view all = text;
+  const std::optional<std::int64_t> top = integer(all.substr(0, slash));
+  const std::optional<std::int64_t> bottom = slash == std::string::npos ? 1 : integer(all.substr(slash + 1));
+  if (!top || !bottom || *bottom <= 0) return std::nullopt;
+  return Fraction{*top, *bottom};
+}
+
+/// Absent if an entry is not a fraction, or the denominator too large.
+std::optional<Common> common_denominator(const Json& entries) {
+  Common common;
+  std::vector<Fraction> fractions;
+  for (const Json& entry : entries) {
+    const std::optional<Fraction> f = fraction(string(at(entry, "exact")));
+    if (!f) return std::nullopt;
+    fractions.push_back(*f);
+    common.denominator = std::lcm(common.denominator, f->bottom);
+    if (common.denominator > greatest_part) return std::nullopt;
+  }
+  for (const Fraction& f : fractions) common.tops.push_back(f.top * (common.denominator / f.bottom));
+  return common;
+}
 
 const char* sign_css(double weight) { return weight > 0 ? "plus" : weight < 0 ? "minus" : "zero"; }
 
@@ -31,13 +77,11 @@ std::string label(double x, double y, double radius, const std::string& words, s
   return text(x, y + radius + 11, words, {"middle", "small"});
 }
 
-std::string signs_legend() {
-  return legend({{circle(11, 6, 4.5, "plus"), "positive"}, {circle(11, 6, 4.5, "minus"), "negative"}});
-}
+const Legend signs = {{circle(11, 6, 4.5, "plus"), "positive"}, {circle(11, 6, 4.5, "minus"), "negative"}};
 
 }  // namespace
 
-std::string regular_mask_figure(const Json& regular, const std::string& scheme) {
+Json regular_mask_figure(const Json& regular, const std::string& scheme) {
   const Json& mask = at(regular, "mask");
   if (!mask.is_array() || mask.empty()) return {};
   const std::string grid = grid_of(regular);
@@ -67,22 +111,14 @@ std::string regular_mask_figure(const Json& regular, const std::string& scheme) 
     body += circle(x, y, radius, sign_css(weight), escaped(string(at(mask[i], "exact"), digits(weight, 6))));
     body += label(x, y, radius, words, words.size() - (words[0] == '\xe2' ? 2 : 0));
   }
-  std::string caption = signs_legend() + "<b>The mask.</b> ";
-  if (common && common->denominator > 1) {
-    caption += "Weights times " + std::to_string(common->denominator) + ". ";
-  } else {
-    caption += "Areas are proportional to weights. ";
-  }
-  caption +=
-      "One control point spreads these parts of itself over the points of the next level; the stencils of the "
-      "scheme are every " +
-      (whole(at(regular, "dilation"), 2) == 3 ? std::string("third") : std::string("second")) + " entry.";
-  return figure(drawing(fit.width, fit.height, "Mask of " + scheme + " on the regular grid",
-                        std::to_string(mask.size()) + " weights", body),
-                caption);
+  Json drawn = figure(drawing(fit.width, fit.height, "Mask of " + scheme + " on the regular grid",
+                              std::to_string(mask.size()) + " weights", body),
+                      signs);
+  if (common) drawn["times"] = common->denominator;
+  return drawn;
 }
 
-std::string support_figure(const Json& regular, const std::string& scheme) {
+Json support_figure(const Json& regular, const std::string& scheme) {
   const Json& support = at(regular, "support");
   const Json& outline = at(support, "outline");
   const std::string grid = grid_of(regular);
@@ -111,28 +147,20 @@ std::string support_figure(const Json& regular, const std::string& scheme) {
   }
   body += circle(fit.x(Point(0, 0)), fit.y(Point(0, 0)), 5, "plus");
   return figure(
-      drawing(fit.width, fit.height, "Support of the basis function of " + scheme, string(at(support, "text")), body),
-      "<b>Support.</b> " + prose(at(support, "text")) +
-          ". What the control point in the middle can move, in the control mesh.");
+      drawing(fit.width, fit.height, "Support of the basis function of " + scheme, string(at(support, "text")), body));
 }
 
 namespace {
 
-struct MaskSpec {
-  const Json& mask;
-  const char* title;
-  const char* caption;
-};
-
-std::string mask_figure(const Json& neighborhood, const MaskSpec& spec, const std::string& name) {
-  if (!spec.mask.is_array() || spec.mask.empty()) return {};
+Json mask_figure(const Json& neighborhood, const Json& mask, const std::string& title) {
+  if (!mask.is_array() || mask.empty()) return {};
   // The first and the last spoke of an open neighbourhood are two: its sectors fill half a turn.
   const std::string kind = string(at(neighborhood, "kind"));
   const bool is_open = kind == "border" || kind == "crease" || kind == "corner";
   const double turn = (is_open ? 1 : 2) * std::numbers::pi / std::max(1, whole(at(neighborhood, "n"), 4));
   std::vector<Point> points;
   double greatest = 0;
-  for (const Json& entry : spec.mask) {
+  for (const Json& entry : mask) {
     points.push_back(at_label(at(entry, "label"), turn));
     greatest = std::max(greatest, std::abs(number(at(entry, "weight")).value_or(0)));
   }
@@ -148,7 +176,7 @@ std::string mask_figure(const Json& neighborhood, const MaskSpec& spec, const st
   for (const Point& p : points) body += line(fit.x(Point(0, 0)), fit.y(Point(0, 0)), fit.x(p), fit.y(p), "grid");
   body += '\n';
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Json& entry = spec.mask[i];
+    const Json& entry = mask[i];
     const double weight = number(at(entry, "weight")).value_or(0), x = fit.x(points[i]), y = fit.y(points[i]);
     const std::string exact = string(at(entry, "exact")), decimal = digits(weight, 3);
     const double radius = radius_of(weight, greatest, room);
@@ -161,45 +189,15 @@ std::string mask_figure(const Json& neighborhood, const MaskSpec& spec, const st
       body += text(x, y + radius + 10, words, {"middle", "small"});
     }
   }
-  return figure(drawing(fit.width, fit.height, std::string(spec.title) + ", " + name, "", body),
-                std::string("<b>") + spec.title + ".</b> " + spec.caption);
-}
-
-std::string label_text(const Json& label) {
-  std::string text = "(";
-  for (std::size_t i = 0; i < 3; ++i) text += (i > 0 ? ", " : "") + shown(at(label, i));
-  return text + ")";
+  return figure(drawing(fit.width, fit.height, title, "", body));
 }
 
 }  // namespace
 
-std::string neighborhood_masks(const Json& neighborhood, const std::string& name) {
-  const Json& masks = at(neighborhood, "masks");
-  if (masks.is_null()) return {};
-  const MaskSpec specs[3] = {
-      {at(masks, "position"), "Limit position", "The limit of the point in the middle is this mean."},
-      {at(masks, "tangent1"), "First tangent", "Weights of the derivative along the first spoke, up to its length."},
-      {at(masks, "tangent2"), "Second tangent", "The other tangent; their cross product is the normal."}};
-  std::string all, tables;
-  std::map<std::string, std::vector<std::string>> rows;  // by label: what the masks have there
-  std::vector<std::string> order;
-  for (int m = 0; m < 3; ++m) {
-    all += mask_figure(neighborhood, specs[m], name);
-    for (const Json& entry : specs[m].mask) {
-      const std::string key = label_text(at(entry, "label"));
-      auto [row, fresh] = rows.try_emplace(key, 4, std::string(dash));
-      if (fresh) order.push_back(key), row->second[0] = key;
-      const std::string exact = string(at(entry, "exact"));
-      row->second[m + 1] = shown(at(entry, "weight"), 8);
-      if (!exact.empty()) row->second[m + 1] += " = <span class=\"code\">" + escaped(exact) + "</span>";
-    }
-  }
-  if (all.empty()) return {};
-  Table table{
-      "Limit masks by label (sector, x, y)", {"point", "position", "first tangent", "second tangent"}, {}, "numbers"};
-  for (const std::string& key : order) table.rows.push_back(rows[key]);
-  return "<h4>Limit masks</h4>\n" + figures(all) + signs_legend() +
-         "<details class=\"inner\"><summary>The weights as numbers</summary>" + html(table) + "</details>\n";
+void add_mask_figures(const Json& neighborhood, const std::string& name, Json& figures) {
+  for (const auto& [key, title] :
+       {std::pair{"position", "Limit position, "}, {"tangent1", "First tangent, "}, {"tangent2", "Second tangent, "}})
+    figures[key] = mask_figure(neighborhood, at(at(neighborhood, "masks"), key), title + name);
 }
 
 }  // namespace sublimit::page
