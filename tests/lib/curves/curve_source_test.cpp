@@ -82,10 +82,6 @@ Points random_homogeneous(const CurveSource& curve) {
   return columns;
 }
 
-const Points& part(const CurveSamples& samples, int derivative) {
-  return derivative == 0 ? samples.position : derivative == 1 ? samples.first : samples.second;
-}
-
 TEST(CurveSource, RowsSumToOneAndZero) {
   for_each_curve([](const CurveSource& curve) {
     for (const CurvePlace& place : places(curve)) {
@@ -118,7 +114,7 @@ TEST(CurveSource, SamplesAreStencilsTimesColumns) {
         const Points expected = matrices.matrices[size_t(k)] * columns;
         for (Eigen::Index i = 0; i < expected.rows(); ++i) {
           const double magnitude = matrices.matrices[size_t(k)].row(i).cwiseAbs().sum();
-          EXPECT_LE((part(samples, k).row(i) - expected.row(i)).norm(), sums(0, magnitude)) << i << " " << k;
+          EXPECT_LE((samples.part(k).row(i) - expected.row(i)).norm(), sums(0, magnitude)) << i << " " << k;
         }
       }
       for (size_t i = 0; i < at.size(); ++i) {
@@ -126,6 +122,38 @@ TEST(CurveSource, SamplesAreStencilsTimesColumns) {
         EXPECT_EQ(samples.status[i], stencil.status);
         EXPECT_EQ(samples.order[i], stencil.weights.rows() - 1);
         EXPECT_EQ(matrices.status[i], stencil.status);
+      }
+    }
+  });
+}
+
+/// A curve that has nothing but its stencils.
+class StencilsAlone : public CurveSource {
+ public:
+  explicit StencilsAlone(const CurveSource& curve) : curve_(curve) {}
+  Index num_segments() const override { return curve_.num_segments(); }
+  Index num_points() const override { return curve_.num_points(); }
+  Index unknowns_per_point() const override { return curve_.unknowns_per_point(); }
+  CurveStencil stencil(const CurvePlace& place, int order) const override { return curve_.stencil(place, order); }
+
+ private:
+  const CurveSource& curve_;
+};
+
+TEST(CurveSource, HasTheSamplesOfItsStencilsAlone) {
+  for_each_curve([](const CurveSource& curve) {
+    const std::vector<CurvePlace> at = places(curve);
+    for (const Coordinates coordinates : {Coordinates::plain, Coordinates::homogeneous}) {
+      const Points columns =
+          coordinates == Coordinates::plain ? random_columns(curve, 3) : Points(random_homogeneous(curve));
+      const CurveSamples samples = curve.evaluate(columns, at, 2, coordinates),
+                         expected = StencilsAlone(curve).evaluate(columns, at, 2, coordinates);
+      EXPECT_EQ(samples.status, expected.status);
+      EXPECT_EQ(samples.order, expected.order);
+      for (Eigen::Index i = 0; i < std::ssize(at); ++i) {
+        const double magnitude = curve.stencil(at[size_t(i)], 2).weights.cwiseAbs().sum();
+        for (int k = 0; k <= 2; ++k)
+          EXPECT_LE((samples.part(k).row(i) - expected.part(k).row(i)).norm(), sums(0, magnitude)) << i << " " << k;
       }
     }
   });
@@ -143,7 +171,7 @@ TEST(CurveSource, OfWeightsOneIsThePlainCurve) {
     for (int k = 0; k <= 2; ++k)
       for (Eigen::Index i = 0; i < std::ssize(at); ++i) {
         const double magnitude = curve.stencil(at[size_t(i)], 2).weights.cwiseAbs().sum();
-        EXPECT_LE((part(plain, k).row(i) - part(rational, k).row(i)).norm(), sums(k, magnitude * magnitude))
+        EXPECT_LE((plain.part(k).row(i) - rational.part(k).row(i)).norm(), sums(k, magnitude * magnitude))
             << i << " " << k;
       }
   });

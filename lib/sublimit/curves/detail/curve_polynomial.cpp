@@ -28,6 +28,11 @@ void bernstein(int degree, Real y, Real* weights) {
   }
 }
 
+/// Coefficients without what rounding leaves of zeros, relative to the size of weights.
+MatrixL without_rounding(const MatrixL& C, Real size) {
+  return C.unaryExpr([size](Real x) { return std::abs(x) < size * Real(double_epsilon) / 16 ? Real(0) : x; });
+}
+
 }  // namespace
 
 std::optional<CurvePolynomial> polynomial_through(const std::vector<CurvePolynomial::Row>& values, int highest) {
@@ -63,7 +68,7 @@ std::optional<CurvePolynomial> polynomial_through(const std::vector<CurvePolynom
     for (int i = 0; i <= last && error <= least; ++i)
       error = std::max(error, (at(i) * C - values[i]).cwiseAbs().maxCoeff());
     if (error > least) continue;
-    best = C.unaryExpr([](Real x) { return std::abs(x) < Real(double_epsilon) / 16 ? Real(0) : x; });
+    best = without_rounding(C, 1);
     least = error / 8;
   }
   if (best.rows() == 0) return std::nullopt;
@@ -76,7 +81,7 @@ std::optional<CurvePolynomial> polynomial_through(const std::vector<CurvePolynom
       continue;
     }
     const Eigen::Index rows = best.rows() - 1;
-    best = (Real(rows) * (best.bottomRows(rows) - best.topRows(rows))).eval();
+    best = without_rounding(Real(rows) * (best.bottomRows(rows) - best.topRows(rows)), Real(rows));
     p.coefficients[k] = best.cast<double>();
   }
   return p;

@@ -2,6 +2,7 @@
 #include "sublimit/curves/detail/curve_vertex.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "sublimit/core/detail/dense_decompositions.h"
@@ -29,6 +30,14 @@ int eigenvalues_from(const Matrix& A, double value) {
   return static_cast<int>((eigenvalues(A).cwiseAbs().array() >= value * (1 - 1e-6)).count());
 }
 
+/// Returns the left eigenvector without what rounding leaves of zeros.
+std::optional<Vector> mask(const Matrix& A, double value, const Vector& scale) {
+  std::optional<Vector> l = left_eigenvector(A, value, scale);
+  if (!l) return l;
+  const double least = std::numeric_limits<double>::epsilon() * l->cwiseAbs().maxCoeff();
+  return l->unaryExpr([least](double x) { return std::abs(x) < least ? 0 : x; });
+}
+
 /// Computes a second derivative from unknowns on one side of a vertex, or at an end from all.
 /// @param from, to  range of positions of that side
 /// @param backward  the side is that before the vertex
@@ -50,7 +59,7 @@ bool second_derivative(const CurveNeighborhood& n, std::int64_t radius, std::int
     weights[size - 2 - from_last] = -2;
     return weights;
   };
-  const std::optional<Vector> parabola = left_eigenvector(A.transpose(), 1.0 / 4, difference(0));
+  const std::optional<Vector> parabola = mask(A.transpose(), 1.0 / 4, difference(0));
   if (!parabola) return false;
   for (Eigen::Index i : {1, 2})
     if (const double error = difference(i).dot(*parabola) - 1; error > 1e-9 || error < -1e-9) return false;
@@ -59,7 +68,7 @@ bool second_derivative(const CurveNeighborhood& n, std::int64_t radius, std::int
   Vector scale(near.size());
   for (size_t i = 0; i < near.size(); ++i)
     scale[Eigen::Index(i)] = (*parabola)[std::find(points.begin(), points.end(), near[i]) - points.begin()];
-  const std::optional<Vector> found = left_eigenvector(n.A(near, near), 1.0 / 4, scale);
+  const std::optional<Vector> found = mask(n.A(near, near), 1.0 / 4, scale);
   if (!found) return false;
   for (size_t i = 0; i < near.size(); ++i) row[n.unknowns[near[i]].column] = (*found)[Eigen::Index(i)];
   return true;
@@ -113,7 +122,7 @@ CurveVertex curve_vertex(const CurveScheme<double>& scheme, const CurveOutline& 
     const CurveUnknown& unknown = n.unknowns[points[i]];
     x[Eigen::Index(i)] = unknown.component == 0 ? static_cast<double>(unknown.position) / 2 : 1;
   }
-  const std::optional<Vector> first = left_eigenvector(A, 1.0 / 2, x);
+  const std::optional<Vector> first = mask(A, 1.0 / 2, x);
   result.has_first = first && eigenvalues_from(A, 0.5) == 2;
   if (!result.has_first) return result;
   for (size_t i = 0; i < points.size(); ++i) result.first[n.unknowns[points[i]].column] = (*first)[Eigen::Index(i)];
