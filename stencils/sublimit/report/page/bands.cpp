@@ -85,9 +85,10 @@ Points rows_of(const Json& list, std::size_t count) {
 }  // namespace
 
 std::vector<PictureMesh> bands(const PictureMesh& mesh, const std::vector<double>& values,
-                               const std::vector<double>& thresholds) {
+                               const std::vector<double>& thresholds, std::size_t count) {
   const Cutter cutter(mesh, values);
-  std::vector<Part> parts(thresholds.size() + 1);
+  std::vector<Part> parts(count > 0 ? count : thresholds.size() + 1);
+  const auto part = [&](std::ptrdiff_t band) -> Part& { return parts[static_cast<std::size_t>(band) % parts.size()]; };
   const auto band = [&](double v) {
     return std::upper_bound(thresholds.begin(), thresholds.end(), v) - thresholds.begin();
   };
@@ -105,13 +106,13 @@ std::vector<PictureMesh> bands(const PictureMesh& mesh, const std::vector<double
     if (finite && band(low) == band(high)) {
       std::vector<Corner> polygon;
       for (Index i = 0; i < size; ++i) polygon.push_back({corner(i), corner(i), 0});
-      cutter.add(parts[band(low)], polygon);
+      cutter.add(part(band(low)), polygon);
     } else if (finite) {
       for (Index i = 1; i + 1 < size; ++i) {
         const std::array<Index, 3> triangle = {corner(0), corner(i), corner(i + 1)};
         for (auto p = band(low); p <= band(high); ++p)
-          cutter.add(parts[p], cutter.cut(triangle, p == 0 ? -all : thresholds[p - 1],
-                                          p == static_cast<int>(thresholds.size()) ? all : thresholds[p]));
+          cutter.add(part(p), cutter.cut(triangle, p == 0 ? -all : thresholds[p - 1],
+                                         p == static_cast<int>(thresholds.size()) ? all : thresholds[p]));
       }
     }
     begin += static_cast<std::size_t>(size);
@@ -125,26 +126,6 @@ std::vector<PictureMesh> bands(const PictureMesh& mesh, const std::vector<double
     result[p].color = mesh.color;
   }
   return result;
-}
-
-PictureMesh joined(const std::vector<PictureMesh>& meshes) {
-  PictureMesh all;
-  if (meshes.empty()) return all;
-  all.color = meshes.front().color;
-  Eigen::Index count = 0;
-  for (const PictureMesh& mesh : meshes) count += mesh.positions.rows();
-  all.positions.resize(count, 3);
-  const bool normals = meshes.front().vertex_normals.rows() > 0;
-  if (normals) all.vertex_normals.resize(count, 3);
-  Eigen::Index first = 0;
-  for (const PictureMesh& mesh : meshes) {
-    all.positions.middleRows(first, mesh.positions.rows()) = mesh.positions;
-    if (normals) all.vertex_normals.middleRows(first, mesh.positions.rows()) = mesh.vertex_normals;
-    all.face_sizes.insert(all.face_sizes.end(), mesh.face_sizes.begin(), mesh.face_sizes.end());
-    for (Index v : mesh.face_vertices) all.face_vertices.push_back(v + static_cast<Index>(first));
-    first += mesh.positions.rows();
-  }
-  return all;
 }
 
 PictureMesh mesh_of(const Json& surface) {

@@ -60,11 +60,7 @@ std::string striped(const PictureMesh& mesh, const std::vector<double>& values, 
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   std::vector<double> thresholds;
   for (int i = 1; i < count; ++i) thresholds.push_back(*low + (*high - *low) * i / count);
-  std::vector<PictureMesh> parts = bands(mesh, values, thresholds);
-  std::vector<PictureMesh> stripes[2];
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    if (!parts[i].face_sizes.empty()) stripes[i % 2].push_back(std::move(parts[i]));
-  Panel panel{{joined(stripes[0]), joined(stripes[1])}, {}, {}};
+  Panel panel{bands(mesh, values, thresholds, 2), {}, {}};
   panel.layers[0].color = {.80, .82, .83}, panel.layers[1].color = {.16, .25, .36};
   return svg_picture({panel}, options);
 }
