@@ -20,13 +20,17 @@ TEST(CliSources, SubcommandsSayWhichTheyTake) {
           .string();
   const std::string out = (directory / "o.obj").string();
   const char* const meshes = "takes meshes under a scheme with masks";
-  expect_failure(sublimit({"tessellate", patch, "--chord", "1", "-o", out}), 2,
-                 {"-s SCHEME is missing", "`sublimit tessellate`", meshes});
+  expect_done(sublimit({"tessellate", patch, "--chord", "1", "-o", out}));
+  expect_failure(sublimit({"bake", patch, "-l", "1", "--limit", "-o", (directory / "o.safetensors").string()}), 2,
+                 {"--limit is for meshes"});
+  const char* const either =
+      "for meshes (see `sublimit schemes`), but not for an .obj with free-form curves or surfaces";
   expect_failure(sublimit({"tessellate", mesh, "--chord", "1", "-o", out}), 2,
-                 {"-s SCHEME is missing", "`sublimit tessellate`", meshes});
+                 {"-s SCHEME is missing", "`sublimit tessellate`", either});
   expect_failure(sublimit({"tessellate", polygon, "-s", "chaikin", "--chord", "1", "-o", out}), 2,
                  {"chaikin refines curves", "`sublimit tessellate`", meshes});
-  expect_failure(sublimit({"info", patch, "--limit"}), 2, {"-s SCHEME is missing", "`sublimit info --limit`", meshes});
+  expect_done(sublimit({"info", patch, "--limit"}));
+  expect_failure(sublimit({"info", mesh, "--limit"}), 2, {"-s SCHEME is missing", "`sublimit info --limit`", either});
   const std::string points = directory.write("q.csv", "x,y,z\n0,0,0\n").string();
   expect_failure(sublimit({"closest", mesh, "-s", "nielson", "--points", points, "-o", (directory / "o.csv").string()}),
                  2, {"nielson", "no matrix", "`sublimit closest`", meshes, "recipes"});
