@@ -162,9 +162,7 @@ struct RayTracer::Prepared {
   std::optional<LimitMap> map = {};  // whose types the parts refer to
 };
 
-RayTracer::RayTracer(const LimitSurface& surface) : RayTracer(PartedLimit(surface)) {
-  prepared_->map = surface.map();
-}
+RayTracer::RayTracer(const LimitSurface& surface) : RayTracer(PartedLimit(surface)) { prepared_->map = surface.map(); }
 
 RayTracer::RayTracer(const PartedSurface& surface) {
   check_has_parts(surface);

@@ -15,7 +15,9 @@ class UnitBox {
   /// @param points  at least one
   explicit UnitBox(const Points& points);
 
+  /// Returns points moved and scaled to the box.
   Points to_unit(const Points& points) const { return (points.rowwise() - middle_) / scale_; }
+  /// Returns the length that is 1 in the box.
   double scale() const { return scale_; }
 
   /// Returns the integrals of the surface.

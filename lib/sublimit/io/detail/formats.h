@@ -98,6 +98,7 @@ class FileFormats {
  public:
   explicit FileFormats(std::vector<FileFormat> rows) : rows_(std::move(rows)) {}
 
+  /// Returns all formats, in the order of the table.
   const std::vector<FileFormat>& rows() const { return rows_; }
   /// Returns the format of a path; null if its extension is unknown.
   const FileFormat* find(const std::filesystem::path& path) const;
@@ -106,8 +107,11 @@ class FileFormats {
   const FileFormat* reader(const std::filesystem::path& path, Content content) const;
   /// Returns the format of a path if it has a writer of the content; null otherwise.
   const FileFormat* writer(const std::filesystem::path& path, Content content) const;
+  /// Returns true if the format of a path has a reader of the content.
   bool reads(const std::filesystem::path& path, Content content) const { return reader(path, content); }
+  /// Returns true if the format of a path has a writer of the content.
   bool writes(const std::filesystem::path& path, Content content) const { return writer(path, content); }
+  /// Returns true if the format of a path holds a field of a mesh.
   bool holds(const std::filesystem::path& path, MeshField field) const;
 
   /// Returns the first format whose files begin so; null if there is none.
@@ -116,6 +120,7 @@ class FileFormats {
   /// Returns the extensions of the formats with one of the contents: those of the first content in the order of the
   /// table, then further ones of the second, ...
   std::vector<std::string> readers(const std::vector<Content>& wanted) const;
+  /// Returns the same of writers.
   std::vector<std::string> writers(const std::vector<Content>& wanted) const;
   /// Returns the extensions of the formats that hold a field of a mesh.
   std::vector<std::string> holders(MeshField field) const;
@@ -123,6 +128,7 @@ class FileFormats {
   /// Returns these extensions as words of a message, ".obj, binary .ply and .off".
   /// @param conjunction  before the last one: "and", "or"
   std::string readers_in_words(const std::vector<Content>& wanted, std::string_view conjunction) const;
+  /// Returns the same of writers.
   std::string writers_in_words(const std::vector<Content>& wanted, std::string_view conjunction) const;
 
  private:

@@ -50,11 +50,14 @@ class Strokes {
     mesh_.faces = false;
     mesh_.ink = {color, width};
   }
+  /// Adds a point, and returns its number.
   Index add(const Eigen::Vector3d& p) {
     points_.push_back(p);
     return static_cast<Index>(points_.size()) - 1;
   }
+  /// Adds a line between points that were added.
   void line(Index a, Index b) { mesh_.creases.push_back({a, b}); }
+  /// Adds a line.
   void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     const Index tail = add(a);
     line(tail, add(b));
