@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <numeric>
 #include <random>
 #include <utility>
 #include <vector>
@@ -26,6 +27,13 @@ inline Knots<double> unit_knots(std::mt19937& random, int degree) {
   knots.insert(knots.end(), size_t(degree) + 1, 1);
   const auto points = static_cast<Index>(knots.size()) - degree - 1;
   return Knots<double>::open(degree, points, std::move(knots));
+}
+
+/// Returns open knots 0, 1, 2, ... for so many control points.
+inline Knots<double> uniform_knots(int degree, Index points) {
+  std::vector<double> knots(size_t(points + degree + 1));
+  std::iota(knots.begin(), knots.end(), 0);
+  return Knots<double>::open(degree, points, knots);
 }
 
 inline CurveNet unit_curve(std::mt19937& random, int degree) {

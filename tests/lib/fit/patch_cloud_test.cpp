@@ -2,7 +2,6 @@
 // Clouds near classical patches.
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <random>
 
 #include "meshes/construction_data.h"
@@ -13,12 +12,6 @@
 
 namespace sublimit::testing {
 namespace {
-
-Knots<double> uniform_knots(int degree, Index points) {
-  std::vector<double> knots(size_t(points + degree + 1));
-  std::iota(knots.begin(), knots.end(), 0);
-  return Knots<double>::open(degree, points, knots);
-}
 
 /// Distances that a fit comes down to where there is a surface through all points.
 constexpr double fitted = 1e-5;

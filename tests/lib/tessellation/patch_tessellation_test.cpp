@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <random>
 #include <set>
 
@@ -18,15 +16,10 @@
 #include "sublimit/tessellation/tessellate.h"
 #include "support/expect_error.h"
 #include "support/tolerance.h"
+#include "truth/triangle_checks.h"
 
 namespace sublimit::testing {
 namespace {
-
-Knots<double> uniform_knots(int degree, Index points) {
-  std::vector<double> knots(size_t(points + degree + 1));
-  std::iota(knots.begin(), knots.end(), 0);
-  return Knots<double>::open(degree, points, knots);
-}
 
 Patches patches_of(const RationalShape& shape) {
   return {PatchSet({std::make_shared<const SplineSurface>(shape.surface)}, Coordinates::homogeneous), shape.columns};
@@ -41,52 +34,10 @@ double diagonal_of(const Patches& patches) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
-/// How far triangles are from the patches, at the same parameters, on a grid in each.
 double largest_distance(const Tessellation& t, const Patches& patches) {
-  constexpr int steps = 4;
-  std::vector<Place> at;
-  std::vector<Eigen::RowVector3d> flat;
-  for (const Tessellation::Triangle& triangle : t.triangles)
-    for (int i = 0; i <= steps; ++i)
-      for (int j = 0; i + j <= steps; ++j) {
-        const std::array<double, 3> w{1 - double(i + j) / steps, double(i) / steps, double(j) / steps};
-        Place s{triangle.face, 0, 0};
-        Eigen::RowVector3d x = Eigen::RowVector3d::Zero();
-        for (size_t k = 0; k < 3; ++k) {
-          s.u += w[k] * triangle.uv[k][0];
-          s.v += w[k] * triangle.uv[k][1];
-          x += w[k] * t.points.row(triangle.vertices[k]);
-        }
-        s.u = std::clamp(s.u, 0.0, 1.0), s.v = std::clamp(s.v, 0.0, patches.faces().triangles ? 1 - s.u : 1.0);
-        at.push_back(s);
-        flat.push_back(x);
-      }
-  const Points on = patches.evaluate(at).position;
-  double largest = 0;
-  for (size_t i = 0; i < flat.size(); ++i) largest = std::max(largest, (on.row(Index(i)) - flat[i]).norm());
-  return largest;
+  return testing::largest_distance(t, patches.faces().triangles,
+                                   [&](const std::vector<Place>& at) { return patches.evaluate(at).position; });
 }
-
-/// Edges that are not two triangles', once in each direction, and V - E + F.
-struct Closed {
-  int open = 0;
-  Index euler = 0;
-  explicit Closed(const Tessellation& t) {
-    std::map<std::pair<Index, Index>, int> directed;
-    std::set<Index> used;
-    std::set<std::pair<Index, Index>> edges;
-    for (const Tessellation::Triangle& triangle : t.triangles)
-      for (size_t k = 0; k < 3; ++k) {
-        const Index a = triangle.vertices[k], b = triangle.vertices[(k + 1) % 3];
-        EXPECT_NE(a, b);
-        ++directed[{a, b}];
-        edges.insert(std::minmax(a, b));
-        used.insert(a);
-      }
-    for (const auto& [edge, times] : directed) open += times != 1 || !directed.contains({edge.second, edge.first});
-    euler = Index(used.size()) - Index(edges.size()) + Index(t.triangles.size());
-  }
-};
 
 void expect_within_the_bound(const Patches& patches, double part) {
   const double chord = part * diagonal_of(patches);
@@ -116,14 +67,15 @@ TEST(PatchTessellation, IsClosedWherePatchesAre) {
     SCOPED_TRACE(part);
     const auto of = [&](const RationalShape& shape) {
       const Patches patches = patches_of(shape);
-      return Closed(tessellate(patches, {.chord = part * diagonal_of(patches)}));
+      return TriangleEdges(tessellate(patches, {.chord = part * diagonal_of(patches)}));
     };
-    const Closed sphere = of(unit_sphere()), ring = of(torus()), tube = of(pipe());
-    EXPECT_EQ(sphere.open, 0);
+    const TriangleEdges sphere = of(unit_sphere()), ring = of(torus()), tube = of(pipe());
+    for (const TriangleEdges* edges : {&sphere, &ring, &tube}) EXPECT_TRUE(edges->is_manifold());
+    EXPECT_EQ(sphere.open(), 0);
     EXPECT_EQ(sphere.euler, 2);
-    EXPECT_EQ(ring.open, 0);
+    EXPECT_EQ(ring.open(), 0);
     EXPECT_EQ(ring.euler, 0);
-    EXPECT_GT(tube.open, 0);
+    EXPECT_GT(tube.open(), 0);
     EXPECT_EQ(tube.euler, 0);
   }
 }
@@ -154,7 +106,7 @@ TEST(PatchTessellation, SidesAreOneWhicheverWayRound) {
     std::set<std::array<double, 3>> points;
     for (const Index v : vertices) points.insert({t.points(v, 0), t.points(v, 1), t.points(v, 2)});
     EXPECT_EQ(points.size(), vertices.size());  // no point twice
-    EXPECT_EQ(Closed(t).euler, 1);              // one sheet
+    EXPECT_EQ(TriangleEdges(t).euler, 1);       // one sheet
   }
 }
 

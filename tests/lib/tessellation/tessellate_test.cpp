@@ -16,67 +16,20 @@
 #include "sublimit/schemes/schemes.h"
 #include "sublimit/tessellation/detail/edge_rates.h"
 #include "support/tolerance.h"
+#include "truth/triangle_checks.h"
 
 namespace sublimit {
 namespace {
 
-using testing::NamedMesh, testing::other_route, testing::rounding;
+using testing::TriangleEdges, testing::NamedMesh, testing::other_route, testing::rounding;
 
 double diagonal(const Mesh& mesh) { return testing::diagonal(mesh.positions); }
 
-/// How far triangles are from the limit, at the same parameters, on a grid in each.
 double largest_distance(const Tessellation& t, const LimitMap& surface, const Points& control) {
-  constexpr int steps = 4;
-  std::vector<Place> at;
-  std::vector<Eigen::RowVector3d> flat;
-  for (const Tessellation::Triangle& triangle : t.triangles)
-    for (int i = 0; i <= steps; ++i)
-      for (int j = 0; i + j <= steps; ++j) {
-        const std::array<double, 3> w{1 - double(i + j) / steps, double(i) / steps, double(j) / steps};
-        Place s{triangle.face, 0, 0};
-        Eigen::RowVector3d x = Eigen::RowVector3d::Zero();
-        for (size_t k = 0; k < 3; ++k) {
-          s.u += w[k] * triangle.uv[k][0];
-          s.v += w[k] * triangle.uv[k][1];
-          x += w[k] * t.points.row(triangle.vertices[k]);
-        }
-        s.u = std::clamp(s.u, 0.0, 1.0), s.v = std::clamp(s.v, 0.0, surface.faces().triangles ? 1 - s.u : 1.0);
-        at.push_back(s);
-        flat.push_back(x);
-      }
-  const Points on = surface.evaluate(control, at).position;
-  double largest = 0;
-  for (size_t i = 0; i < flat.size(); ++i) largest = std::max(largest, (on.row(Index(i)) - flat[i]).norm());
-  return largest;
+  return testing::largest_distance(t, surface.faces().triangles, [&](const std::vector<Place>& at) {
+    return surface.evaluate(control, at).position;
+  });
 }
-
-/// How often each directed edge occurs, and V - E + F.
-struct Edges {
-  std::map<std::pair<Index, Index>, int> directed;
-  Index euler = 0;
-  explicit Edges(const Tessellation& t) {
-    std::set<Index> used;
-    std::set<std::pair<Index, Index>> undirected;
-    for (const Tessellation::Triangle& triangle : t.triangles)
-      for (size_t k = 0; k < 3; ++k) {
-        const Index a = triangle.vertices[k], b = triangle.vertices[(k + 1) % 3];
-        ++directed[{a, b}];
-        undirected.insert(std::minmax(a, b));
-        used.insert(a);
-      }
-    euler = static_cast<Index>(used.size()) - static_cast<Index>(undirected.size()) +
-            static_cast<Index>(t.triangles.size());
-  }
-  /// Edges that no triangle has the other way round.
-  int open() const {
-    int count = 0;
-    for (const auto& [edge, times] : directed) count += !directed.contains({edge.second, edge.first});
-    return count;
-  }
-  bool is_manifold() const {
-    return std::ranges::all_of(directed, [](const auto& edge) { return edge.second == 1; });
-  }
-};
 
 std::vector<NamedMesh> closed_meshes() {
   std::vector<NamedMesh> all;
@@ -106,7 +59,7 @@ TEST(Tessellate, KeepsItsDistanceAndClosesClosedMeshes) {
         const Tessellation t = tessellate(surface, m.mesh.positions, {.chord = chord});
         EXPECT_LE(t.bound, chord);
         EXPECT_LE(largest_distance(t, surface, m.mesh.positions), t.bound + other_route * diagonal(m.mesh));
-        const Edges edges(t);
+        const TriangleEdges edges(t);
         EXPECT_TRUE(edges.is_manifold());
         EXPECT_EQ(edges.open(), 0);
         const Topology topology(view(m.mesh));
@@ -128,7 +81,7 @@ TEST(Tessellate, CutsEdgesAsOftenAsTheirRatesAtLeast) {
       const Tessellation t = tessellate(surface, m.mesh.positions, options);
       EXPECT_LE(t.bound, options.chord);
       EXPECT_LE(largest_distance(t, surface, m.mesh.positions), t.bound + other_route * diagonal(m.mesh));
-      const Edges edges(t);
+      const TriangleEdges edges(t);
       EXPECT_TRUE(edges.is_manifold());
       EXPECT_EQ(edges.open(), 0);
       // Places on each side of each address, as parameters along it.
@@ -180,7 +133,7 @@ TEST(Tessellate, OpensAtBordersAndHolesAlone) {
   Mesh grid = testing::grid(4, 3);
   const LimitMap surface(find_scheme("catmull-clark").value(), grid);
   const Tessellation t = tessellate(surface, grid.positions, {.chord = 1e-3});
-  const Edges edges(t);
+  const TriangleEdges edges(t);
   EXPECT_TRUE(edges.is_manifold());
   EXPECT_EQ(edges.euler, 1);
   for (const auto& [edge, times] : edges.directed) {
@@ -195,7 +148,7 @@ TEST(Tessellate, OpensAtBordersAndHolesAlone) {
   const LimitMap with_hole(find_scheme("catmull-clark").value(), grid);
   const Tessellation u = tessellate(with_hole, grid.positions, {.chord = 1e-3});
   EXPECT_TRUE(std::ranges::none_of(u.triangles, [](const auto& triangle) { return triangle.face == 5; }));
-  EXPECT_EQ(Edges(u).euler, 0);
+  EXPECT_EQ(TriangleEdges(u).euler, 0);
 }
 
 TEST(Tessellate, SharesPointsOfNonManifoldEdges) {
@@ -254,7 +207,7 @@ TEST(Tessellate, TakesAsManyTrianglesFarFromTheOrigin) {
   Points far = near.positions;
   far.array() += 1e6;
   const Tessellation a = tessellate(surface, near.positions, options), b = tessellate(surface, far, options);
-  EXPECT_EQ(Edges(b).euler, 2);
+  EXPECT_EQ(TriangleEdges(b).euler, 2);
   EXPECT_NEAR(double(b.triangles.size()), double(a.triangles.size()), 0.01 * double(a.triangles.size()));
 }
 
