@@ -77,8 +77,10 @@ std::vector<NamedPatch> load_surfaces(const Source& source, Progress& progress) 
 
 double diagonal_of(const std::vector<NamedPatch>& patches) {
   Eigen::AlignedBox3d box;
-  for (const NamedPatch& patch : patches)
-    for (const auto& point : points_in_space(patch.columns).rowwise()) box.extend(Eigen::Vector3d(point));
+  for (const NamedPatch& patch : patches) {
+    const Points points = points_in_space(patch.columns);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) box.extend(Eigen::Vector3d(points.row(i)));
+  }
   return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
