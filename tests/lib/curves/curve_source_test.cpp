@@ -62,7 +62,7 @@ std::vector<CurvePlace> places(const CurveSource& curve) {
 }
 
 /// Random points, and a derivative at each of them if the curve takes it.
-Points random_columns(const CurveSource& curve, Eigen::Index dimension, unsigned seed = 3) {
+Points random_columns(const CurveSource& curve, Index dimension, unsigned seed = 3) {
   std::mt19937 random(seed);
   return random_points(random, curve.num_unknowns(), dimension);
 }
