@@ -125,6 +125,8 @@ LimitIntegrals limit_integrals(const Patches& patches) {
   if (faces == 0 || points.rows() == 0) return no_faces();
   const UnitBox box(points);
   const PartedPatches surface(patches.set(), patches.points());
+  if (const std::string& pole = surface.with_pole(); !pole.empty())
+    throw UnsupportedTopology(pole + ": its area may have no limit");
   const std::int64_t most = std::max(least_cells, most_cells / std::max<std::int64_t>(faces, 1));
   constexpr std::int64_t faces_a_block = 32;
   std::vector<EstimatedSums> blocks(size_t(num_blocks(faces, faces_a_block)));

@@ -78,7 +78,7 @@ PartedPatches::PartedPatches(const PatchSet& patches, const Points& columns)
       sampled_(parts_.size()) {
   check_columns(columns, patches.num_points(), patches.coordinates());
   check_measurable_control(columns);
-  std::vector<std::string> without(parts_.size());
+  std::vector<std::string> without(parts_.size()), poles(parts_.size());
   parallel_for_blocks(
       faces().size,
       [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -99,12 +99,18 @@ PartedPatches::PartedPatches(const PatchSet& patches, const Points& columns)
           add_parts(
               whole_part(*bezier, faces().triangles, columns_(patches_.slots(static_cast<Index>(face)), Eigen::all)),
               cutter, parts_[size_t(face)], sampled);
-          if (!sampled.empty()) refuse("has a denominator that is 0 or below somewhere, or very near to that");
+          if (sampled.empty()) continue;
+          refuse("has a denominator that is 0 or below somewhere, or very near to that");
+          poles[size_t(face)] = without[size_t(face)];
         }
       },
       32);
-  const auto first = std::ranges::find_if(without, [](const std::string& why) { return !why.empty(); });
-  if (first != without.end()) without_parts_ = std::move(*first);
+  const auto first_of = [](std::vector<std::string>& all) {
+    const auto first = std::ranges::find_if(all, [](const std::string& why) { return !why.empty(); });
+    return first == all.end() ? std::string() : std::move(*first);
+  };
+  without_parts_ = first_of(without);
+  with_pole_ = first_of(poles);
 }
 
 void PartedPatches::find_parts(Index face, PieceParts&, std::vector<PiecePart>& out) const {

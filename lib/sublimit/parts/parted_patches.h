@@ -22,6 +22,8 @@ class PartedPatches : public PartedSurface {
   std::vector<LimitCell> cells() const override;
   void find_parts(Index face, PieceParts&, std::vector<PiecePart>& out) const override;
   std::string without_parts() const override { return without_parts_; }
+  /// Returns which face has a denominator that vanishes, or very nearly so; empty if none has.
+  const std::string& with_pole() const { return with_pole_; }
   /// Returns the largest degree of the parts of a face, in either direction.
   int degree(Index face) const;
   /// Patches are closed if each side is shared with another one or collapsed, and normals are oriented consistently.
@@ -36,7 +38,7 @@ class PartedPatches : public PartedSurface {
   std::unique_ptr<BoundSource> samples_;
   std::vector<std::vector<PiecePart>> parts_;      ///< parts by face
   std::vector<std::vector<CellCorners>> sampled_;  ///< cells without parts, by face
-  std::string without_parts_;
+  std::string without_parts_, with_pole_;
 };
 
 }  // namespace sublimit

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 #include "sublimit/surface/detail/shared_places.h"
 
@@ -99,11 +100,31 @@ SharedSides::SharedSides(const BoundSource& surface, FaceCount faces, const Side
     }
     return corner;
   };
-  const auto join = [&](size_t a, size_t b) {
+  // Corners are one as far as all of them are the same as the first one: chains of corners, each the same as the next,
+  // would lead anywhere.
+  Points at = Points::Zero(Eigen::Index(corner_.size()), 3);
+  std::vector<double> radius(corner_.size(), 0);  // of the corners that a first one stands for
+  const auto joined_radius = [&](std::int64_t first, std::int64_t second) {
+    return std::max(radius[size_t(first)], (at.row(first) - at.row(second)).norm() + radius[size_t(second)]);
+  };
+  const auto ends = [&](size_t a, size_t b) {
     const std::int64_t first = first_of(std::int64_t(a)), second = first_of(std::int64_t(b));
-    corner_[size_t(std::max(first, second))] = std::min(first, second);
+    return std::pair(std::min(first, second), std::max(first, second));
+  };
+  const auto may_join = [&](size_t a, size_t b) {
+    const auto [first, second] = ends(a, b);
+    return first == second || joined_radius(first, second) <= options.same;
+  };
+  const auto join = [&](size_t a, size_t b) {
+    const auto [first, second] = ends(a, b);
+    if (first == second || !(joined_radius(first, second) <= options.same)) return;
+    radius[size_t(first)] = joined_radius(first, second);
+    corner_[size_t(second)] = first;
+    gap_ = std::max(gap_, radius[size_t(first)]);
   };
   const auto corner = [&](Index face, size_t k) { return size_t(face) * corners_ + k % corners_; };
+  for (Index face = 0; face < faces.size; ++face)
+    for (size_t k = 0; k < corners_; ++k) at.row(Eigen::Index(corner(face, k))) = points.of(face, k, 1).row(0);
   for (Index face = 0; face < faces.size; ++face)
     for (size_t k = 0; k < corners_; ++k) {
       Side& side = sides_[corner(face, k)];
@@ -111,10 +132,11 @@ SharedSides::SharedSides(const BoundSource& surface, FaceCount faces, const Side
       if (!own.allFinite()) continue;
       const auto from_start = [](const Points& x) { return distance(x, x.row(0).replicate(x.rows(), 1)); };
       if (from_start(own) <= options.same) {
-        if (const double radius = from_start(points.of(face, k, steps)); radius <= options.same) {
+        const double length = from_start(points.of(face, k, steps));
+        if (length <= options.same && may_join(corner(face, k), corner(face, k + 1))) {
           side.is_point = true;
-          gap_ = std::max(gap_, radius);
           join(corner(face, k), corner(face, k + 1));
+          gap_ = std::max(gap_, length + radius[size_t(first_of(std::int64_t(corner(face, k))))]);
           continue;
         }
       }
@@ -124,13 +146,16 @@ SharedSides::SharedSides(const BoundSource& surface, FaceCount faces, const Side
           const auto turned = [&](const Points& x) { return reversed ? Points(x.colwise().reverse()) : x; };
           if (!(distance(turned(own), line.points) <= options.same)) continue;
           const double gap = distance(turned(points.of(face, k, steps)), points.of(line.face, line.side, steps));
-          if (!(gap <= options.same)) continue;
+          const size_t start = corner(line.face, line.side + (reversed ? 1 : 0)),
+                       end = corner(line.face, line.side + (reversed ? 0 : 1));
+          if (!(gap <= options.same) || !may_join(corner(face, k), start) || !may_join(corner(face, k + 1), end))
+            continue;
           gap_ = std::max(gap_, gap);
           side.line = std::int64_t(which);
           side.reversed = reversed;
           ++line.count;
-          join(corner(face, k), corner(line.face, line.side + (reversed ? 1 : 0)));
-          join(corner(face, k + 1), corner(line.face, line.side + (reversed ? 0 : 1)));
+          join(corner(face, k), start);
+          join(corner(face, k + 1), end);
           return true;
         }
         return false;
@@ -143,6 +168,13 @@ SharedSides::SharedSides(const BoundSource& surface, FaceCount faces, const Side
   for (Side& side : sides_)
     if (side.line >= 0 && lines[size_t(side.line)].count == 1) side.line = -1;
   for (size_t c = 0; c < corner_.size(); ++c) corner_[c] = first_of(std::int64_t(c));
+}
+
+bool SharedSides::has_loop(Index face) const {
+  const size_t first = size_t(face) * corners_;
+  for (size_t k = 0; k < corners_; ++k)
+    if (!sides_[first + k].is_point && corner_[first + k] == corner_[first + (k + 1) % corners_]) return true;
+  return false;
 }
 
 std::string SharedSides::why_not_closed() const {

@@ -30,9 +30,11 @@ class SharedSides {
   /// Returns a number that is the same for all faces that share a place; SharedPlaces::not_shared inside faces and
   /// on sides that no other face has.
   std::int64_t number(Index face, const CellCorner& corner) const;
+  /// Returns true if a side of the face is a curve that ends where it begins.
+  bool has_loop(Index face) const;
   /// Returns which side is not that of exactly one other, the opposite way, nor a single point; empty if none is.
   std::string why_not_closed() const;
-  /// Returns the largest distance between points that count as the same.
+  /// Returns the largest distance of points from those that they count as.
   double gap() const { return gap_; }
 
  private:

@@ -2,6 +2,7 @@
 #include "sublimit/tessellation/tessellate.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -69,7 +70,7 @@ Tessellation triangles_of(const std::vector<FlatCell>& cells, bool triangles, Ce
     };
     for (size_t k = 0; k < corners; ++k) {
       const PolygonCorner a = corner(k), b = corner(k + 1);
-      if (a.vertex == b.vertex) continue;  // at a pole
+      if (a.vertex == b.vertex) continue;  // the side is a point: its end begins the next side
       polygon.push_back(a);
       add_between(vertices, cell.address, a, b, polygon);
     }
@@ -113,8 +114,9 @@ Tessellation tessellate(const LimitMap& surface, const Points& control, const Te
 Tessellation tessellate(const Patches& patches, const TessellationOptions& options) {
   check(options);
   if (!options.rates.empty()) throw InvalidParameter("rates are of the edges of a mesh; patches have none");
-  const FlatCellOptions wanted = cell_options(options);
-  check_above_rounding(points_in_space(patches.points()), wanted);
+  FlatCellOptions wanted = cell_options(options);
+  const Points points = points_in_space(patches.points());
+  check_above_rounding(points, wanted);
   const PartedPatches surface(patches.set(), patches.points());
   if (const std::string why = surface.without_parts(); !why.empty())
     throw UnsupportedTopology(
@@ -124,8 +126,18 @@ Tessellation tessellate(const Patches& patches, const TessellationOptions& optio
     surface.find_parts(face, cutter, out);
   };
   for (Index face = 0; face < surface.faces().size; ++face) degree = std::max(degree, surface.degree(face));
+  // Points may be moved by so much, twice: where sides are one, and where corners are. What is left is for the cells.
+  const double diagonal = points.rows() > 0 ? (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm() : 0;
+  const double same = std::min(options.chord / 1000, std::max(1e-6 * diagonal, DBL_MIN));
+  wanted.chord = options.chord - 2 * same;
+  const SharedSides sides(surface.samples(), surface.faces(), {.same = same, .degree = degree});
+  // A side that ends where it begins has points between.
+  wanted.longest_sides = [&](Index face) {
+    std::array<std::int32_t, 4> longest;
+    longest.fill(sides.has_loop(face) ? cell_steps / 4 : cell_steps);
+    return longest;
+  };
   const std::vector<FlatCell> cells = flat_cells(surface.faces(), find_parts, wanted);
-  const SharedSides sides(surface.samples(), surface.faces(), {.same = options.chord / 1000, .degree = degree});
   Tessellation made = triangles_of(
       cells, surface.faces().triangles,
       CellVertices([&](Index face, const CellCorner& corner) { return sides.number(face, corner); }),

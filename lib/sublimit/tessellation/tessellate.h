@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Tessellates surfaces: triangles within a proved distance of a limit surface or of classical patches, without cracks.
+// Tessellates surfaces: triangles within a proved distance of a limit surface or of classical patches.
 //
 //   const LimitSurface surface(read_mesh("torus.obj"), "catmull-clark");
 //   const Tessellation flat = tessellate(surface, {.chord = 1e-3});
@@ -25,7 +25,7 @@ struct TessellationOptions {
   /// Largest distance between a point of a triangle and the point of the surface with the same parameters, > 0.
   double chord = 0;
   /// Largest angle between two normals of a cell, in radians; 0: any. It is not enforced around extraordinary vertices,
-  /// nor in cells of rational patches that are smaller than the chord: normals may turn as fast as they like at a pole.
+  /// nor in cells at a pole that are smaller than the chord: normals turn there however small a cell is.
   double angle = 0;
   std::int64_t max_triangles = std::int64_t{1} << 24;  ///< limit of the number of triangles
   /// Least number of segments for each edge of the surface's level, >= 1; empty: as many as the chord needs. Patches
@@ -65,8 +65,10 @@ inline Tessellation tessellate(const LimitSurface& surface, const TessellationOp
 }
 
 /// Returns triangles of classical patches. Sides of patches are joined if they are the same curve in the same
-/// parameter, up to a thousandth of the chord, and poles are single points; elsewhere patches stay apart, so that a
-/// side that lies on a part of another one leaves a crack of up to twice the chord.
+/// parameter, up to a thousandth of the chord or a millionth of the diagonal, and poles are single points; elsewhere
+/// patches stay apart, so that a side that lies on a part of another one leaves a crack of up to twice the chord.
+/// Triangles have the orientation of their patches, which may look to different sides (`why_no_solid` of
+/// `limit_integrals` tells).
 /// @throws InvalidParameter     a chord or angle that is negative or below rounding; rates
 /// @throws UnsupportedTopology  a face that is no polynomial and no quotient of polynomials, or one with a denominator
 ///                              that vanishes: names it

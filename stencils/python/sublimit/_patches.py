@@ -92,15 +92,16 @@ class Patches(Source):
                    threads: int = 0) -> Tessellation:
         """Returns triangles within a proved distance of the surfaces.
 
-        Sides of patches are joined if they are the same curve in the same parameter, up to a thousandth of the chord, and poles
-        are single points. A side that lies on a part of another one may leave a crack of up to twice the chord.
+        Sides of patches are joined if they are the same curve in the same parameter, up to a thousandth of the chord or a
+        millionth of the diagonal, and poles are single points. A side that lies on a part of another one may leave a crack of
+        up to twice the chord. Triangles have the orientation of their patches.
 
         Parameters
         ----------
         chord : largest distance between a point of a triangle and the point of the surface with the same parameters, a
             length > 0
-        angle : largest angle between two normals of a cell, in radians; not enforced in cells of rational surfaces that are
-            smaller than the chord (default: 0, any)
+        angle : largest angle between two normals of a cell, in radians; not enforced in cells at a pole that are smaller than
+            the chord (default: 0, any)
         max_triangles : largest number of triangles (default: 2**24)
         normals : compute normals at the corners of triangles (default: False)
         threads : largest number of threads (default: all)

@@ -199,7 +199,7 @@ class RayHits:
 
 @dataclass(frozen=True)
 class Tessellation:
-    """Triangles near a surface, without cracks. `LimitSurface.tessellate` and `Patches.tessellate` make them.
+    """Triangles near a surface. `LimitSurface.tessellate` and `Patches.tessellate` make them.
 
     ``bake(mesh, scheme, tessellation=...)`` makes a table that moves the points with the control mesh.
 
@@ -586,7 +586,7 @@ def tessellate(mesh: Mesh | LimitSurface | Patches, scheme: Scheme | str | None 
                creasing: str | None = None, triangles: str | None = None, face_varying: str | None = None,
                option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
                strict: bool = False, threads: int = 0) -> Mesh | Tessellation:
-    """Returns triangles within a proved distance of a limit surface, or of patches, without cracks.
+    """Returns triangles within a proved distance of a limit surface, without cracks, or of patches.
 
     The triangles are a `Mesh` if a mesh and a scheme are given, and a `Tessellation` if a `LimitSurface` or `Patches` are given.
     Boundary, creasing and the other keyword arguments that are not listed are those of `refine`; only a `Mesh` takes them.

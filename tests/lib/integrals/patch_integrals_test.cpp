@@ -71,6 +71,10 @@ TEST(PatchIntegrals, SayWhatHasNone) {
   RationalShape shape = unit_sphere();
   shape.columns(0, 0) = std::nan("");
   expect_error<InvalidMesh>([&] { (void)limit_integrals(patches_of(shape)); }, {"not finite"});
+  RationalShape with_pole = pipe();
+  with_pole.columns.row(4) *= -1;
+  expect_error<UnsupportedTopology>([&] { (void)limit_integrals(patches_of(with_pole)); },
+                                    {"face 1, of patch 0", "denominator"});
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -170,6 +171,30 @@ Eigen::Matrix3d affine_map(const std::vector<PiecePart>& parts, const CellCorner
   return A;
 }
 
+/// True if a side of a part is one point, up to rounding.
+/// @param size  of the part
+bool has_pole(const PiecePart& part, double size) {
+  const bool triangle = part.is_triangle();
+  const int d = part.basis->degree();
+  constexpr double rounding = 1e-12;  // of the size
+  for (size_t side = 0; side < (triangle ? 3 : 4); ++side) {
+    std::optional<Eigen::Vector3d> first;
+    double length = 0;
+    for_each_net_row(*part.basis, [&](int i, int j, Eigen::Index row) {
+      const bool on_side = side == 0                ? j == 0
+                           : side == 1              ? (triangle ? i + j : i) == d
+                           : side == 2 && !triangle ? j == d
+                                                    : i == 0;
+      if (!on_side) return;
+      const Eigen::Vector3d x = net_point(part.nets[0], row);
+      if (!first) first = x;
+      length = std::max(length, (x - *first).norm());
+    });
+    if (length <= rounding * size) return true;
+  }
+  return false;
+}
+
 class Cutter {
  public:
   /// @param count  of triangles that all cells become at least
@@ -205,13 +230,12 @@ class Cutter {
     return false;
   }
 
-  /// Normals have no limit at some places, or turn fast there: cells below the chord have whatever normals they have.
+  /// Around a pole normals turn however small the cell is: below the chord it has whatever normals it has.
   bool is_bent(const PiecePart& part) const {
     if (!(options_.angle > 0) || is_within_angle(*part.basis, part.nets, options_.angle)) return false;
-    if (part.nets[0].cols() != 4) return true;
     Eigen::AlignedBox3d box;
     for (Eigen::Index i = 0; i < part.nets[0].rows(); ++i) box.extend(net_point(part.nets[0], i));
-    return box.diagonal().norm() > options_.chord;
+    return !has_pole(part, box.diagonal().norm()) || box.diagonal().norm() > options_.chord;
   }
 
   void cut(PiecePart part) {
