@@ -142,8 +142,8 @@
 #if __has_include("sublimit/report/report.h")
 #include "sublimit/report/report.h"
 #endif
-#if __has_include("sublimit/cad/opencascade/step.h")
-#include "sublimit/cad/opencascade/step.h"
+#if __has_include("sublimit/cad/step.h")
+#include "sublimit/cad/step.h"
 #endif
 
 namespace sublimit {

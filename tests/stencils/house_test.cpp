@@ -137,8 +137,7 @@ bool is_own(const std::string& path) {
       "|primvar|schemes|certificates/(spectra|c1|witness|regularity))/|^eval/sublimit/eval/kernels/"
       "|^stencils/sublimit/(stencils/(files|fit_jobs|formats|gallery|json|patterns|picture|shards)"
       "|report/(analysis|asset|free_form|page)|distributed)/");
-  static const std::set<std::string> doors{"lib/sublimit/cad/step_options.h", "lib/sublimit/cad/opencascade/step.h",
-                                           "stencils/sublimit/distributed/distributed.h",
+  static const std::set<std::string> doors{"lib/sublimit/cad/step.h", "stencils/sublimit/distributed/distributed.h",
                                            "stencils/sublimit/distributed/ranks.h"};
   return !doors.contains(path) && std::regex_search(path, own);
 }

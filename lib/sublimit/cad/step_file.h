@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Implementation of `step` (opencascade/step.h) without a dependency on OpenCASCADE: this makes models and
+// Implementation of `step` (step.h) without a dependency on OpenCASCADE: this makes models and
 // writes files, and the function that converts a model to bytes is an argument. Programs that load OpenCASCADE
 // on demand pass the loaded function.
 #include <filesystem>
@@ -8,9 +8,7 @@
 #include <string>
 
 #include "sublimit/cad/boundary_model.h"
-#include "sublimit/cad/step_options.h"
-#include "sublimit/patches/patches.h"
-#include "sublimit/surface/limit_surface.h"
+#include "sublimit/cad/step.h"
 
 namespace sublimit {
 

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "sublimit/patches/knots.h"
-#include "sublimit/patches/rational.h"
 #include "sublimit/source/address.h"
 #include "sublimit/source/limit_stencil.h"
+#include "sublimit/source/rational.h"
 
 namespace sublimit {
 

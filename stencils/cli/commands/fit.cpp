@@ -243,6 +243,9 @@ Command add_fit(CLI::App& app) {
   auto options = std::make_shared<FitOptions>();
   FitSettings& settings = options->settings;
   add_mesh(*command, options->common, false);
+  command->get_option("MESH")->description(
+      "Control mesh: .obj (with tags), .ply or .off, or without -s free-form surfaces (.obj); MESH.json beside a mesh "
+      "overrides tags");
   command->add_option("--targets", options->targets, "IN.csv: what the limit shall go through, see below");
   command->add_option("--cloud", options->cloud,
                       "Or points without order: a .csv with the header x,y,z[,weight], or the vertices of a mesh");

@@ -221,8 +221,9 @@ Command add_tessellate(CLI::App& app) {
       app.add_subcommand("tessellate", "Make triangles within a proved distance of the limit, or of patches");
   auto options = std::make_shared<TessellateOptions>();
   add_mesh(*command, options->common, false);
-  command->add_option("--chord", options->chord,
-                      "Largest distance of triangles from the limit: in the mesh's unit, or as 0.1% of its diagonal");
+  command->add_option(
+      "--chord", options->chord,
+      "Largest distance of triangles from the surface: in the unit of MESH, or as 0.1% of its diagonal");
   command->add_option(
       "--rates", options->rates,
       "RATES.csv: v0,v1,rate, segments of edges of the control mesh, 1 without a row; with --chord the least they have");
@@ -232,15 +233,16 @@ Command add_tessellate(CLI::App& app) {
   command->add_flag("--normals", options->normals,
                     "Limit normals too, one for each side of a crease; a .glb always has them");
   command->add_flag("--face-ids", options->face_ids,
-                    "The control mesh's face of each triangle: face_id of a .ply, groups face_N of an .obj; a .vtu "
+                    "The face of MESH that each triangle is on: face_id of a .ply, groups face_N of an .obj; a .vtu "
                     "always has them");
   command->add_option(
       "--places", options->places,
       "Write the places of the points too, face,u,v, as `bake --at` and `sample --at` read them; a .ply has "
       "them in itself, for `bake --tessellation`");
   command
-      ->add_option("-o,--output", options->output,
-                   "OUT.obj, OUT.ply or OUT.glb: triangles; OUT.vtu: Bezier cells for ParaView; holes are left out")
+      ->add_option(
+          "-o,--output", options->output,
+          "OUT.obj, OUT.ply or OUT.glb: triangles; OUT.vtu, of meshes: Bezier cells for ParaView; holes are left out")
       ->required();
   command->footer(
       "Examples:\n"

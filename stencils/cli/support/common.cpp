@@ -51,7 +51,8 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
   add_mesh_options(command,
                    {common.mesh, common.scheme, common.boundary, common.creasing, common.triangles,
                     &common.face_varying, common.options, common.triangulate, common.no_creases},
-                   ".obj (with tags), .ply or .off", scheme_required);
+                   ".obj (with tags), .ply or .off, or without -s free-form shapes (.obj) or recipes (.json)",
+                   scheme_required);
   add_run(command, common);
   command.add_flag("--strict", common.strict, "Reject meshes that are accepted with a warning, naming each place");
 }

@@ -118,7 +118,7 @@ class Patches(Source):
         Examples
         --------
         >>> import sublimit
-        >>> plane = {"kind": "bezier_surface", "degree": [1, 1], "points": [[[0, 0, 0], [1, 0, 0]], [[0, 1, 0], [1, 1, 0]]]}
+        >>> plane = {"kind": "bezier_surface", "degree": [1, 1], "points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]}
         >>> len(sublimit.construct(plane).surfaces().tessellate(0.1).triangles)
         2
         """

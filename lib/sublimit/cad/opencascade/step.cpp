@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/cad/opencascade/step.h"
+#include "sublimit/cad/step.h"
 
 #include "sublimit/cad/opencascade/write_cad.h"
 #include "sublimit/cad/step_file.h"

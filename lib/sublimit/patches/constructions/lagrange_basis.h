@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "sublimit/patches/rational.h"
+#include "sublimit/source/rational.h"
 
 namespace sublimit {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/patches/rational.h"
 #include "sublimit/patches/spline_surface.h"
+#include "sublimit/source/rational.h"
 
 namespace sublimit {
 

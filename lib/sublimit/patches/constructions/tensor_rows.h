@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "sublimit/patches/rational.h"
+#include "sublimit/source/rational.h"
 
 namespace sublimit {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sublimit/patches/knots.h"
-#include "sublimit/patches/rational.h"
+#include "sublimit/source/rational.h"
 
 namespace sublimit {
 

@@ -15,7 +15,7 @@
 
 #include "sublimit/patches/detail/blossom.h"
 #include "sublimit/patches/knots.h"
-#include "sublimit/patches/rational.h"
+#include "sublimit/source/rational.h"
 
 namespace sublimit {
 

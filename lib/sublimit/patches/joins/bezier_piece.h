@@ -7,7 +7,7 @@
 
 #include "sublimit/patches/detail/spline_rows.h"
 #include "sublimit/patches/joins/line_polynomial.h"
-#include "sublimit/patches/rational.h"
+#include "sublimit/source/rational.h"
 
 namespace sublimit {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `step`: limits and patches as files of CAD programs, in one call.
-#include "sublimit/cad/opencascade/step.h"
+#include "sublimit/cad/step.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// What `step` (opencascade/step.h) is asked for, and what it says of the file it wrote.
+// Writes limit surfaces and patches to files that CAD programs read, by OpenCASCADE: link sublimit::cad.
+//
+//   const StepFile written = step(LimitSurface(mesh, "catmull-clark"), "surface.step");
+//   if (!written.met) std::cerr << "caps are off by " << written.deviation << "\n";
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 
-#include "sublimit/mesh/mesh.h"
+#include "sublimit/patches/patches.h"
+#include "sublimit/surface/limit_surface.h"
 
 namespace sublimit {
 
@@ -31,5 +36,20 @@ struct [[nodiscard]] StepFile {
   bool met = true;             ///< true if the deviation is within the tolerance
   bool is_valid = false;       ///< result of OpenCASCADE's own check
 };
+
+/// Writes a limit surface as exact B-spline faces with shared edges, solids where it is closed; holes are left out.
+/// @param path  .step, .stp or .brep
+/// @throws InvalidOption        another extension
+/// @throws InvalidParameter     a tolerance that is not positive, names that are not one for each face
+/// @throws InvalidMesh          no faces, or no extent
+/// @throws UnsupportedTopology  a scheme without polynomials
+/// @throws IoError              a file that cannot be written
+/// @throws ResourceError        more faces than a file may have, a full disk
+StepFile step(const LimitSurface& surface, const std::filesystem::path& path, const StepOptions& options = {});
+/// Writes classical patches, a face for each.
+/// @param path  .step, .stp or .brep
+/// @throws UnsupportedTopology  a patch that is no B-spline: says which and why
+/// @throws InvalidOption, InvalidParameter, InvalidMesh, IoError, ResourceError  as for limit surfaces
+StepFile step(const Patches& patches, const std::filesystem::path& path, const StepOptions& options = {});
 
 }  // namespace sublimit

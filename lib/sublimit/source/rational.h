@@ -10,9 +10,15 @@
 //   const CurveSamples samples = arc.evaluate(columns, middle, 2, Coordinates::homogeneous);
 #include <Eigen/Core>
 
-#include "sublimit/source/row_values.h"
+#include "sublimit/core/types.h"
 
 namespace sublimit {
+
+/// Kind of the columns of control points.
+enum class Coordinates {
+  plain,        ///< x, y, ..
+  homogeneous,  ///< w x, w y, .., w
+};
 
 /// Returns the columns (w x, w) of points with weights. Weights may be negative; a point of weight 0 is a direction
 /// ("control vector") and becomes (x, 0).
@@ -31,5 +37,24 @@ Points points_in_space(const Points& columns);
 /// Throws unless columns are those of control points of a surface.
 /// @throws InvalidParameter  columns that are not #points x 3, or x 4 if they are homogeneous
 void check_columns(const Points& columns, Index num_points, Coordinates coordinates);
+
+/// Weights row by row: position, then derivatives.
+using WeightRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Position and derivatives at a place.
+struct RowValues {
+  bool is_pole = false;   ///< w = 0 up to rounding; nothing else is filled
+  Points values;          ///< position or derivative for each row of weights
+  Eigen::VectorXd sizes;  ///< for each derivative: its size if no terms cancelled, a scale of rounding errors
+};
+
+/// Returns position and derivatives from weights and control columns.
+/// @param rows       weights of the position, then first and second derivative of a curve, or du, dv, duu, duv, dvv
+///                   of a surface, as far as wanted
+/// @param variables  1 for a curve, 2 for a surface
+/// @param columns    control columns, one for each column of `rows`
+/// @param affine     true if all control points are points: weights of positions sum to 1, those of derivatives to 0
+RowValues row_values(const WeightRows& rows, int variables, Points columns, Coordinates coordinates,
+                     bool affine = true);
 
 }  // namespace sublimit

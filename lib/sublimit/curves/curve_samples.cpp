@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/curves/curve_place.h"
+#include "sublimit/curves/curve_source.h"
 
 #include <Eigen/Geometry>
 
