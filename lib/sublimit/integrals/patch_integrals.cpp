@@ -19,7 +19,7 @@ namespace {
 
 using Numbers = SurfaceSums::Numbers;
 
-/// Of the square of the extent of all control points that the area of a face may be off by.
+/// Largest error of a face's sums, where the control points have an extent near 1.
 constexpr double tolerance = 2e-13;
 /// Cells that all faces together, and a single one at least, may be quartered into, as for limits.
 constexpr std::int64_t most_cells = 1 << 15, least_cells = 1 << 8;
@@ -62,7 +62,8 @@ class CellSums {
   }
 
  private:
-  /// Of X X^T (X.N) the degree is 5 d - 2 in u and in v; quotients and roots take some more.
+  /// Returns the nodes in each direction: enough for X X^T (X.N), of degree 5 d - 2 in u and in v; quotients and roots
+  /// take some more.
   static int nodes(int degree) { return std::max(12, 5 * degree / 2 + 1); }
 
   const PatchSet& patches_;

@@ -34,7 +34,7 @@ class SharedSides {
   bool has_loop(Index face) const;
   /// Returns which side is not that of exactly one other, the opposite way, nor a single point; empty if none is.
   std::string why_not_closed() const;
-  /// Returns the largest distance of points from those that they count as.
+  /// Returns the largest distance of points from the first ones that they are one with; at most twice `same`.
   double gap() const { return gap_; }
 
  private:

@@ -126,10 +126,11 @@ Tessellation tessellate(const Patches& patches, const TessellationOptions& optio
     surface.find_parts(face, cutter, out);
   };
   for (Index face = 0; face < surface.faces().size; ++face) degree = std::max(degree, surface.degree(face));
-  // Points may be moved by so much, twice: where sides are one, and where corners are. What is left is for the cells.
+  // Two faces may each be so far from the first one that they share a point with, at corners twice. What is left is for
+  // the cells.
   const double diagonal = points.rows() > 0 ? (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm() : 0;
   const double same = std::min(options.chord / 1000, std::max(1e-6 * diagonal, DBL_MIN));
-  wanted.chord = options.chord - 2 * same;
+  wanted.chord = options.chord - 4 * same;
   const SharedSides sides(surface.samples(), surface.faces(), {.same = same, .degree = degree});
   // A side that ends where it begins has points between.
   wanted.longest_sides = [&](Index face) {
@@ -142,7 +143,7 @@ Tessellation tessellate(const Patches& patches, const TessellationOptions& optio
       cells, surface.faces().triangles,
       CellVertices([&](Index face, const CellCorner& corner) { return sides.number(face, corner); }),
       [&](std::span<const Place> places, int order) { return patches.evaluate(places, order); }, options);
-  made.bound += sides.gap();
+  made.bound += 2 * sides.gap();
   return made;
 }
 

@@ -16,7 +16,7 @@ namespace sublimit::testing {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// Of areas and volumes near 10, by cells that are quartered until they change by 2e-13.
+/// Tolerance of areas and volumes near 10: cells are quartered until they change by 2e-13, a hundredth of it.
 constexpr double quartered = 1e-11;
 
 Patches patches_of(RationalShape shape) {

@@ -3,6 +3,8 @@
 // Polynomials over a square or a triangle by their Bernstein coefficients, in any number type. Exact numbers
 // prove identities. Balls prove signs, since a polynomial lies between its least and its greatest coefficient.
 #include <array>
+#include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "sublimit/core/detail/binomial.h"
@@ -74,12 +76,16 @@ class Bernstein {
 
 namespace bernstein_detail {
 
-/// Returns the factor of B_ij: B_ij = weight * u^i v^j * (powers of the other coordinates).
+/// Returns the factor of B_ij: B_ij = weight * u^i v^j * (powers of the other coordinates). Degrees are at most 60 for
+/// floating-point numbers, and for others so small that the factor is a 32-bit integer.
 template <class T>
 T weight(const Bernstein<T>& f, int i, int j) {
-  return f.shape() == PieceShape::square
-             ? T(static_cast<int>(binomial(f.degree_u(), i) * binomial(f.degree_v(), j)))
-             : T(static_cast<int>(binomial(f.degree_u(), i) * binomial(f.degree_u() - i, j)));
+  const std::int64_t of_i = binomial(f.degree_u(), i);
+  const std::int64_t of_j = binomial(f.shape() == PieceShape::square ? f.degree_v() : f.degree_u() - i, j);
+  if constexpr (std::is_floating_point_v<T>)
+    return T(of_i) * T(of_j);
+  else
+    return T(static_cast<int>(of_i * of_j));
 }
 
 /// One step of de Casteljau on n values spaced `stride` apart, towards t.

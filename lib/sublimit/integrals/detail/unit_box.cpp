@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/integrals/detail/unit_box.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -45,7 +46,7 @@ SolidIntegrals solid_of(const EstimatedSums& sums) {
   const double first = error.first.norm(), distance = solid.centroid.norm();
   solid.volume_error = error.volume;
   solid.centroid_error = (first + distance * error.volume) / std::abs(value.volume);
-  // Of `central`; the trace has at most sqrt(3) times its norm, the identity a norm of sqrt(3).
+  // The error of `central`, four times: its trace has at most sqrt(3) times its norm, and the identity has sqrt(3).
   solid.inertia_error = 4 * (error.second.norm() + 2 * distance * first + distance * distance * error.volume);
   return solid;
 }

@@ -66,6 +66,8 @@ DerivativeBounds quick_bounds(const PolynomialBasis& basis, const Points& net) {
 DerivativeBounds close_bounds(const PolynomialBasis& basis, const Points& net) {
   using Polynomial = Bernstein<double>;
   const int d = basis.degree();
+  constexpr int most_degree = 20;  // products of three are of degree 60, up to which binomial coefficients are exact
+  if (d > most_degree) return quick_bounds(basis, net);
   const auto column = [&](int k) {
     Polynomial p(basis.total() ? PieceShape::triangle : PieceShape::square, d, d);
     for_each_net_row(basis, [&](int i, int j, Eigen::Index row) { p(i, j) = net(row, k); });

@@ -88,7 +88,7 @@ SpreadMesh read_spread_mesh(const Ranks& ranks, const std::filesystem::path& pat
                         all_formats().readers_in_words({contents::mesh_parts}, "and") + " can be read");
   });
   check_alike(ranks, std::to_string(file.bytes.size()), "bytes in " + name);
-  // Of the formats with parts of meshes one also holds tables, and one values at vertices.
+  // Three formats have parts of meshes: the one that tables are in too, the one with values at vertices, and OBJ.
   SpreadMesh mesh = all_formats().reads(path, contents::tables) ? read_tensor_parts(ranks, file.bytes, name)
                     : all_formats().reads(path, contents::vertex_values)
                         ? read_ply_parts(ranks, text_of(file.bytes), name)

@@ -33,7 +33,7 @@ Json without_drawn(const Json& value) {
   return kept;
 }
 
-/// Of many schemes only these valences get pictures of surfaces, of one all that the report has surfaces of.
+/// Valences that get pictures of surfaces in a report on many schemes; a report on one has all its surfaces drawn.
 constexpr int pictured[] = {3, 5, 7, 8};
 
 /// Which vertices or faces, by their valence, get pictures of surfaces.
