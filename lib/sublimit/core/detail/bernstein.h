@@ -77,7 +77,7 @@ class Bernstein {
 namespace bernstein_detail {
 
 /// Returns the factor of B_ij: B_ij = weight * u^i v^j * (powers of the other coordinates). Degrees are at most 60 for
-/// floating-point numbers, and for others so small that the factor is a 32-bit integer.
+/// floating-point numbers; others are made of 32-bit integers, and binomial coefficients are such up to degree 33.
 template <class T>
 T weight(const Bernstein<T>& f, int i, int j) {
   const std::int64_t of_i = binomial(f.degree_u(), i);
@@ -85,7 +85,7 @@ T weight(const Bernstein<T>& f, int i, int j) {
   if constexpr (std::is_floating_point_v<T>)
     return T(of_i) * T(of_j);
   else
-    return T(static_cast<int>(of_i * of_j));
+    return T(static_cast<int>(of_i)) * T(static_cast<int>(of_j));
 }
 
 /// One step of de Casteljau on n values spaced `stride` apart, towards t.
