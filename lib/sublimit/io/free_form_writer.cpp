@@ -146,7 +146,7 @@ class ObjStatements {
   // The rest of a line, which may have blanks in it.
   void line(std::string_view keyword, std::string_view rest) {
     text_ += std::string(keyword) + (rest.empty() ? "" : " ") + std::string(rest);
-    text_ += rest.ends_with('\\') ? " \n" : "\n";  // a name, and no continuation
+    text_ += rest.ends_with('\\') ? " #\n" : "\n";  // a name, and no continuation
   }
 
   std::string take() { return std::move(text_); }

@@ -41,8 +41,14 @@ TextScanner::TextScanner(std::string_view text, std::string_view name, Continuat
   if (text.starts_with("\xEF\xBB\xBF")) here_ += 3;  // the byte order mark of UTF-8
 }
 
+const char* TextScanner::behind_blanks(const char* at) const {
+  return std::find_if(at, end_, [](char c) { return kind(c) != blank; });
+}
+
 bool TextScanner::at_continuation() const {
-  return continued_ && *here_ == '\\' && (here_ + 1 == end_ || kind(here_[1]) == line_end);
+  if (!continued_ || *here_ != '\\') return false;
+  const char* const next = behind_blanks(here_ + 1);
+  return next == end_ || kind(*next) == line_end;
 }
 
 void TextScanner::skip_line_end() { here_ += *here_ == '\r' && here_ + 1 != end_ && here_[1] == '\n' ? 2 : 1; }
@@ -52,7 +58,7 @@ std::string_view TextScanner::token() {
     if (kind(*here_) == blank) {
       ++here_;
     } else if (at_continuation()) {
-      ++here_;
+      here_ = behind_blanks(here_ + 1);
       if (here_ == end_) break;
       skip_line_end();
       ++line_;
@@ -63,6 +69,12 @@ std::string_view TextScanner::token() {
   const char* const first = here_;
   while (here_ != end_ && (kind(*here_) == letter || (kind(*here_) == backslash && !at_continuation()))) ++here_;
   return {first, static_cast<std::size_t>(here_ - first)};
+}
+
+std::string_view TextScanner::token_of_any_line() {
+  std::string_view found = started_ ? token() : std::string_view();
+  if (found.empty() && next_filled_line()) found = token();
+  return found;
 }
 
 bool TextScanner::next_line() {
@@ -90,7 +102,12 @@ bool TextScanner::next_filled_line() {
   return false;
 }
 
-std::string TextScanner::place(std::int64_t line) const { return name_ + ":" + format_number(line) + ": "; }
+std::string TextScanner::place(std::int64_t line) const {
+  const auto after = std::ranges::find_if(origins_, [&](const Origin& origin) { return origin.first > line; });
+  if (after == origins_.begin()) return name_ + ":" + format_number(line) + ": ";
+  const Origin& origin = after[-1];
+  return origin.name + ":" + format_number(origin.line + line - origin.first) + ": ";
+}
 
 template <class T>
 T TextScanner::number(std::string_view token, std::string_view what) const {

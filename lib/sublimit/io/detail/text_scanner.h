@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "sublimit/core/types.h"
 
@@ -20,7 +22,7 @@ class TextScanner {
  public:
   enum class Continuation {
     none,
-    backslash,  ///< a backslash at the end of a line joins it to the next one
+    backslash,  ///< a backslash at the end of a line, or with blanks behind it, joins the line to the next one
   };
 
   /// @param first_line  number of the first line, for text from the middle of a file
@@ -28,12 +30,23 @@ class TextScanner {
   template <TemporaryString Text>
   TextScanner(Text&& text, std::string_view name, Continuation continuation, std::int64_t first_line = 1) = delete;
 
+  /// Lines of another file that stand in the text.
+  struct Origin {
+    std::int64_t first;  ///< the first line in the text, from 1
+    std::string name;    ///< the file
+    std::int64_t line;   ///< the number of that line there
+  };
+  /// Tells where lines of the text come from, for messages; each origin holds to the next one.
+  void set_origins(std::vector<Origin> origins) { origins_ = std::move(origins); }
+
   /// Moves to the next line (the first time: to the first line). Returns false at the end of the text.
   bool next_line();
   /// Moves to the next line that has a token. Returns false at the end of the text.
   bool next_filled_line();
   /// Returns the next token of this line; empty at its end.
   std::string_view token();
+  /// Returns the next token of this line or of those after it; empty at the end of the text.
+  std::string_view token_of_any_line();
 
   std::int64_t line() const { return line_; }
   /// Returns the bytes that are not yet read.
@@ -59,6 +72,7 @@ class TextScanner {
  private:
   template <class T>
   T number(std::string_view token, std::string_view what) const;
+  const char* behind_blanks(const char* at) const;
   bool at_continuation() const;
   void skip_line_end();
 
@@ -69,6 +83,7 @@ class TextScanner {
   bool continued_;
   bool started_ = false;
   std::int64_t line_;
+  std::vector<Origin> origins_;
 };
 
 /// Returns a token for messages: in quotes, shortened, with unprintable bytes as hexadecimal numbers.

@@ -48,7 +48,7 @@ std::size_t line_begin(std::string_view text, std::size_t at) {
     const std::size_t end = text.find('\n', at - 1);
     if (end == std::string_view::npos) return text.size();
     std::size_t before = end;
-    if (before > 0 && text[before - 1] == '\r') --before;
+    while (before > 0 && std::string_view(" \t\v\f\r").find(text[before - 1]) != std::string_view::npos) --before;
     if (before == 0 || text[before - 1] != '\\') return end + 1;
     at = end + 2;
   }
