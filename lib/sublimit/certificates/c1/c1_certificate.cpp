@@ -107,17 +107,6 @@ void add_evidence(C1Certificate& c, bool leads) {
   v.answer = signs->negative == 0 ? Verdict::Answer::evidence_for : Verdict::Answer::evidence_against;
 }
 
-/// The local matrix commutes with the rotation by a sector.
-bool is_rotation_symmetric(const LocalPatch<Algebraic>& patch) {
-  std::vector<Eigen::Index> next(patch.labels.size());
-  for (const auto& orbit : patch.orbits)
-    for (size_t k = 0; k < orbit.size(); ++k) next[static_cast<size_t>(orbit[k])] = orbit[(k + 1) % orbit.size()];
-  for (Eigen::Index i = 0; i < patch.A.rows(); ++i)
-    for (Eigen::Index j = 0; j < patch.A.cols(); ++j)
-      if (!(patch.A(i, j) == patch.A(next[static_cast<size_t>(i)], next[static_cast<size_t>(j)]))) return false;
-  return true;
-}
-
 LocalPatch<Algebraic> patch_of(const Scheme<Algebraic>& scheme, const RegularMask<Algebraic>& mask, int n) {
   // Rings enough for the mask to go on outwards by itself.
   const int reach = (mask.reach2() + 1) / 2, rings = mask.dual ? reach - 1 : reach;
@@ -157,8 +146,8 @@ C1Certificate C1Prover::certify(int n) const {
   };
   v.hypotheses.push_back(rows_sum_to_one(c.patch));
   // Neither this nor the sign of lambda is necessary: other theorems speak of other pairs.
-  add("it commutes with the rotation by a sector", is_rotation_symmetric(c.patch) ? std::optional(true) : std::nullopt,
-      By::exact);
+  add("it commutes with the rotation by a sector",
+      exact_rows(c.patch.A, c.patch.orbits) ? std::optional(true) : std::nullopt, By::exact);
   const DenseMatrix<ComplexBall> B1 = fourier_block(c.patch, 1);
   const auto pair = leading_pair(B1);
   add("block 1 has an isolated leading eigenvalue", pair ? std::optional(true) : std::nullopt, By::enclosure,
@@ -170,7 +159,7 @@ C1Certificate C1Prover::certify(int n) const {
         d.open ? std::nullopt : std::optional(true), By::enclosure,
         d.open ? "not shown for block " + std::to_string(*d.open) : "norms of powers up to " + std::to_string(d.power));
     add("lambda is real: block 1 is similar to its conjugate by reflection",
-        mirror_images(c.patch) ? std::optional(true) : std::nullopt, By::exact);
+        mirror_rows(c.patch) ? std::optional(true) : std::nullopt, By::exact);
     add("0 < lambda < 1",
         certainly_positive(lambda) && certainly_less(lambda, Ball(1)) ? std::optional(true) : std::nullopt,
         By::enclosure);

@@ -77,20 +77,25 @@ std::vector<SectorLabel> block_labels(const LocalPatch<Algebraic>& patch, int k)
   return labels;
 }
 
-DenseMatrix<ComplexBall> fourier_block(const LocalPatch<Algebraic>& patch, int k) {
-  const int n = patch.type.faces;
-  const std::vector<SectorLabel> labels = block_labels(patch, k);
+Orbits block_orbits(const LocalPatch<Algebraic>& patch, int k) {
   const auto at = places(patch);
-  const auto size = static_cast<Eigen::Index>(labels.size());
-  DenseMatrix<ComplexBall> B(size, size);
-  for (Eigen::Index i = 0; i < size; ++i)
-    for (Eigen::Index j = 0; j < size; ++j) {
-      const SectorLabel& from = labels[static_cast<size_t>(j)];
-      for (int s = 0; s < (is_centre(from) ? 1 : n); ++s) {
-        const Algebraic& a = patch.A(at.at(labels[static_cast<size_t>(i)]), at.at(SectorLabel{s, from.x2, from.y2}));
-        if (!a.is_zero()) B(i, j) += a.enclosure() * ComplexBall::root_of_unity(static_cast<long>(k) * s, n);
-      }
-    }
+  Orbits orbits;
+  for (const SectorLabel& label : block_labels(patch, k)) {
+    orbits.emplace_back();
+    for (int s = 0; s < (is_centre(label) ? 1 : patch.type.faces); ++s)
+      orbits.back().push_back(static_cast<Index>(at.at({s, label.x2, label.y2})));
+  }
+  return orbits;
+}
+
+DenseMatrix<ComplexBall> fourier_block(const LocalPatch<Algebraic>& patch, int k) {
+  const Orbits orbits = block_orbits(patch, k);
+  DenseMatrix<ComplexBall> B(std::ssize(orbits), std::ssize(orbits));
+  for (size_t i = 0; i < orbits.size(); ++i)
+    for (size_t j = 0; j < orbits.size(); ++j)
+      for (size_t s = 0; s < orbits[j].size(); ++s)
+        if (const Algebraic& a = patch.A(orbits[i][0], orbits[j][s]); !a.is_zero())
+          B(i, j) += a.enclosure() * ComplexBall::root_of_unity(k * static_cast<long>(s), patch.type.faces);
   return B;
 }
 

@@ -13,6 +13,7 @@
 #include "sublimit/certificates/spectra/exact_schemes.h"
 #include "sublimit/certificates/spectra/leading_pair.h"
 #include "sublimit/certificates/spectra/sector_chart.h"
+#include "sublimit/core/detail/sector_rows.h"
 
 namespace sublimit {
 
@@ -31,10 +32,12 @@ struct CharacteristicMap {
 };
 
 /// Returns Fourier block k of a closed neighbourhood, over the labels of sector 0 (in block 0 after the
-/// centre).
+/// centre), whether or not the matrix commutes with the rotation.
 DenseMatrix<ComplexBall> fourier_block(const LocalPatch<Algebraic>& patch, int k);
 /// Returns the labels of the rows of `fourier_block`.
 std::vector<SectorLabel> block_labels(const LocalPatch<Algebraic>& patch, int k);
+/// Returns the positions in the patch of the points of each row of `fourier_block`, from sector 0 on.
+Orbits block_orbits(const LocalPatch<Algebraic>& patch, int k);
 
 /// Returns the characteristic map from the leading pair of block 1.
 CharacteristicMap characteristic_map(const LocalPatch<Algebraic>& patch, const RegularMask<Algebraic>& mask,

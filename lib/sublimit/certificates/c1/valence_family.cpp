@@ -4,48 +4,14 @@
 #include <algorithm>
 
 #include "sublimit/certificates/numbers/detail/flint_value.h"
+#include "sublimit/certificates/spectra/fourier_blocks.h"
 
 namespace sublimit {
 namespace {
 
-using Places = std::map<SectorLabel, Eigen::Index>;
-
-Places places(const LocalPatch<Algebraic>& patch) {
-  Places at;
-  for (size_t i = 0; i < patch.labels.size(); ++i) at[patch.labels[i]] = static_cast<Eigen::Index>(i);
-  return at;
-}
-
-bool is_centre(const SectorLabel& label) { return label.x2 == 0 && label.y2 == 0; }
-
-/// Block k, rows from sector 0.
-MatrixRows<Algebraic> exact_block(const LocalPatch<Algebraic>& patch, const Places& at, int k) {
-  const int n = patch.type.faces;
-  const std::vector<SectorLabel> labels = block_labels(patch, k);
-  MatrixRows<Algebraic> B(labels.size(), std::vector<Algebraic>(labels.size()));
-  for (size_t i = 0; i < labels.size(); ++i)
-    for (size_t j = 0; j < labels.size(); ++j)
-      for (int s = 0; s < (is_centre(labels[j]) ? 1 : n); ++s) {
-        const Algebraic& a = patch.A(at.at(labels[i]), at.at(SectorLabel{s, labels[j].x2, labels[j].y2}));
-        if (a.is_zero()) continue;
-        if (k == 0 || s == 0)
-          B[i][j] += a;
-        else
-          B[i][j] += a * Algebraic::root_of_unity(static_cast<long>(k) * s, n);
-      }
-  return B;
-}
-
-bool looks_the_same_from_all_sectors(const LocalPatch<Algebraic>& patch, const Places& at) {
-  const int n = patch.type.faces;
-  std::vector<Eigen::Index> next;
-  for (const SectorLabel& p : patch.labels)
-    next.push_back(at.at(is_centre(p) ? p : SectorLabel{(p.sector + 1) % n, p.x2, p.y2}));
-  for (size_t i = 0; i < next.size(); ++i)
-    for (size_t j = 0; j < next.size(); ++j)
-      if (!(patch.A(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) == patch.A(next[i], next[j])))
-        return false;
-  return true;
+/// Rows that begin in sector 0, in the order of labels; nothing unless the matrix is the same for all sectors.
+std::optional<ExactRows> rows_by_label(const LocalPatch<Algebraic>& patch) {
+  return exact_rows(patch.A, block_orbits(patch, 0));
 }
 
 /// Coefficient of zeta^k of an element of the field of order p, or of the rationals.
@@ -89,24 +55,24 @@ Algebraic at(const RingPolynomial& p, int n) {
   return sum;
 }
 
-bool of_order(const MatrixRows<Algebraic>& B, int p) {
-  for (const auto& row : B)
-    for (const Algebraic& e : row)
-      if (e.order() != 1 && e.order() != p) return false;
+bool of_order(const DenseMatrix<Algebraic>& B, int p) {
+  for (const Algebraic& e : B.reshaped())
+    if (e.order() != 1 && e.order() != p) return false;
   return true;
 }
 
 std::optional<MatrixRows<RingPolynomial>> block_zero(const std::array<int, 3>& primes,
-                                                     const std::array<MatrixRows<Algebraic>, 3>& B) {
+                                                     const std::array<DenseMatrix<Algebraic>, 3>& B) {
   for (size_t k = 0; k < 3; ++k)
-    if (B[k].size() != B[0].size() || !of_order(B[k], primes[k])) return std::nullopt;
-  MatrixRows<RingPolynomial> Z(B[0].size(), std::vector<RingPolynomial>(B[0].size()));
+    if (B[k].rows() != B[0].rows() || !of_order(B[k], primes[k])) return std::nullopt;
+  const auto size = static_cast<size_t>(B[0].rows());
+  MatrixRows<RingPolynomial> Z(size, std::vector<RingPolynomial>(size));
   const std::array<Algebraic, 3> t{Algebraic::ratio(1, primes[0]), Algebraic::ratio(1, primes[1]),
                                    Algebraic::ratio(1, primes[2])};
   for (size_t i = 0; i < Z.size(); ++i)
     for (size_t j = 0; j < Z.size(); ++j) {
-      const std::array<std::array<Algebraic, 3>, 3> f{in_cosine(B[0][i][j]), in_cosine(B[1][i][j]),
-                                                      in_cosine(B[2][i][j])};
+      const std::array<std::array<Algebraic, 3>, 3> f{in_cosine(B[0](i, j)), in_cosine(B[1](i, j)),
+                                                      in_cosine(B[2](i, j))};
       for (size_t a = 0; a < 3; ++a) Z[i][j][a] = through(t, {f[0][a], f[1][a], f[2][a]});
     }
   return Z;
@@ -115,14 +81,15 @@ std::optional<MatrixRows<RingPolynomial>> block_zero(const std::array<int, 3>& p
 bool is_member(const ValenceFamily& family, const LocalPatch<Algebraic>& patch) {
   const int n = patch.type.faces;
   if (block_labels(patch, 1) != family.labels) return false;
-  const Places at_label = places(patch);
-  if (!looks_the_same_from_all_sectors(patch, at_label)) return false;
+  const std::optional<ExactRows> rows = rows_by_label(patch);
+  if (!rows) return false;
   for (int k = 0; 2 * k <= n; ++k) {
-    const MatrixRows<Algebraic> B = exact_block(patch, at_label, k);
-    if (k == 0 && B.size() != family.zero.size()) return false;
-    for (size_t i = 0; i < B.size(); ++i)
-      for (size_t j = 0; j < B.size(); ++j)
-        if (!(B[i][j] == (k == 0   ? at(family.zero[i][j], n)
+    const DenseMatrix<Algebraic> B = rows->block(k);
+    const auto size = static_cast<size_t>(B.rows());
+    if (k == 0 && size != family.zero.size()) return false;
+    for (size_t i = 0; i < size; ++i)
+      for (size_t j = 0; j < size; ++j)
+        if (!(B(i, j) == (k == 0   ? at(family.zero[i][j], n)
                           : k == 1 ? at(family.first[i][j], 1, n)
                                    : at(family.other[i][j], k, n))))
           return false;
@@ -213,22 +180,23 @@ std::optional<MatrixRows<Polynomial>> real_block(const std::vector<SectorLabel>&
 std::optional<ValenceFamily> valence_family(const C1Prover& prover, const std::vector<int>& valences) {
   const std::array<int, 3> primes{7, 11, 13};
   ValenceFamily family;
-  std::array<MatrixRows<Algebraic>, 3> zero;
+  std::array<DenseMatrix<Algebraic>, 3> zero;
   for (size_t p = 0; p < 3; ++p) {
     const LocalPatch<Algebraic> patch = prover.patch(primes[p]);
-    const Places at_label = places(patch);
-    zero[p] = exact_block(patch, at_label, 0);
+    const std::optional<ExactRows> rows = rows_by_label(patch);
+    if (!rows) return std::nullopt;
+    zero[p] = rows->block(0);
     if (primes[p] != 11) continue;
     family.labels = block_labels(patch, 1);
     family.has_centre = block_labels(patch, 0).size() > family.labels.size();
     for (const int k : {1, 2}) {
-      const MatrixRows<Algebraic> B = exact_block(patch, at_label, k);
+      const DenseMatrix<Algebraic> B = rows->block(k);
       if (!of_order(B, 11)) return std::nullopt;
       MatrixRows<TurnPolynomial>& block = k == 1 ? family.first : family.other;
-      for (const auto& row : B) {
+      for (Eigen::Index i = 0; i < B.rows(); ++i) {
         block.emplace_back();
         // w^2 -> w, as 2*6 = 1 modulo 11
-        for (const Algebraic& e : row)
+        for (const Algebraic& e : B.row(i))
           block.back().push_back(turn_polynomial(k == 1 || e.is_rational() ? e : e.galois(6)));
       }
     }

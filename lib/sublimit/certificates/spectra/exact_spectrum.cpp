@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sublimit/certificates/numbers/detail/exact_kernel.h"
+#include "sublimit/core/detail/strong_components.h"
 
 namespace sublimit {
 namespace {
@@ -11,7 +12,11 @@ namespace {
 /// Eigenvalues of one block with algebraic multiplicities: those of the diagonal blocks of its triangular form.
 std::vector<ExactEigenvalue> block_values(const DenseMatrix<Algebraic>& B) {
   std::vector<ExactEigenvalue> values;
-  for (const std::vector<Index>& component : strong_components(B)) {
+  std::vector<std::vector<Index>> columns(size_t(B.rows()));
+  for (Index i = 0; i < B.rows(); ++i)
+    for (Index j = 0; j < B.cols(); ++j)
+      if (!B(i, j).is_zero()) columns[size_t(i)].push_back(j);
+  for (const std::vector<Index>& component : strong_components(columns)) {
     const DenseMatrix<Algebraic> C = B(component, component);
     for (const PolynomialFactor& factor : squarefree_factors(characteristic_polynomial(C)))
       for (AlgebraicRoot& root : AlgebraicRoot::all(factor.factor)) {

@@ -4,7 +4,6 @@
 // exchanged) and darts (the sharp edge is fixed). A local matrix that commutes with the mirror decomposes into
 // two blocks: of even modes, equal at mirror images, and of odd modes, opposite there.
 #include <optional>
-#include <vector>
 
 #include "sublimit/certificates/spectra/fourier_blocks.h"
 
@@ -14,14 +13,8 @@ namespace sublimit {
 /// @param closed  true if the last spoke is the first one
 SectorLabel mirrored(const SectorLabel& label, int n, bool closed);
 
-/// Returns the position of the mirror image of each point; nothing if a point has none, or the matrix does not
-/// commute with the mirror (checked for every entry).
-std::optional<std::vector<Index>> mirror_images(const LocalPatch<Algebraic>& patch);
-
-/// Returns the even block, over pairs of mirror images and fixed points, and the odd block, over pairs: B(i, j)
-/// = A(i, j) +- A(i, image of j). An eigenvector x of a block is one of A with the values x_i and +-x_i on pair
-/// i.
-/// @param images  result of `mirror_images`
-ExactBlocks mirror_blocks(const DenseMatrix<Algebraic>& A, const std::vector<Index>& images);
+/// Returns the rows of one half of a patch's matrix, over pairs of mirror images and points that are their own image;
+/// nothing if a point has no image, or the matrix does not commute with the mirror (checked for every entry).
+std::optional<ExactRows> mirror_rows(const LocalPatch<Algebraic>& patch);
 
 }  // namespace sublimit

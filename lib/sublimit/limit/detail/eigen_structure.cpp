@@ -8,7 +8,7 @@
 #include "sublimit/core/detail/complex_decompositions.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/core/detail/left_eigenvector.h"
-#include "sublimit/core/number.h"
+#include "sublimit/core/detail/strong_components.h"
 #include "sublimit/source/limit_status.h"
 
 namespace sublimit {
@@ -84,121 +84,10 @@ EigenStructure eigen_structure(const Eigen::MatrixXcd& A, int block, int leading
 
 namespace {
 
-/// exp(2 pi i turn/n), exact at quarter turns.
-Complex root_of_unity(long long turn, int n) {
-  const int k = static_cast<int>(turn % n);
-  return {Number<double>::cos_2pi(k, n), Number<double>::cos_2pi(4 * k - n, 4 * n)};
-}
-
-/// Orbits that depend on each other, directly or not.
-std::vector<std::vector<int>> strong_components(const std::vector<std::vector<SectorRows::Term>>& rows) {
-  const size_t size = rows.size();
-  std::vector<std::vector<std::uint8_t>> reaches(size, std::vector<std::uint8_t>(size, 0));
-  for (size_t i = 0; i < size; ++i)
-    for (const SectorRows::Term& term : rows[i]) reaches[i][size_t(term.orbit)] = 1;
-  for (size_t k = 0; k < size; ++k)
-    for (size_t i = 0; i < size; ++i)
-      if (reaches[i][k])
-        for (size_t j = 0; j < size; ++j) reaches[i][j] |= reaches[k][j];
-  std::vector<std::vector<int>> components;
-  std::vector<std::uint8_t> done(size, 0);
-  for (size_t i = 0; i < size; ++i) {
-    if (done[i]) continue;
-    components.emplace_back();
-    for (size_t j = i; j < size; ++j)
-      if (j == i || (reaches[i][j] && reaches[j][i])) {
-        done[j] = 1;
-        components.back().push_back(static_cast<int>(j));
-      }
-  }
-  return components;
-}
-
-/// Compares rows of a matrix with those of the first sector, turned.
-class SectorRowsFinder {
- public:
-  SectorRowsFinder(const SparseMatrix& A, SectorRows& result)
-      : A_(A), result_(result), orbit_of_(size_t(A.rows()), -1), sector_of_(size_t(A.rows()), 0) {
-    for (size_t i = 0; i < result.orbits.size(); ++i)
-      for (size_t s = 0; s < result.orbits[i].size(); ++s) {
-        orbit_of_[size_t(result.orbits[i][s])] = static_cast<int>(i);
-        sector_of_[size_t(result.orbits[i][s])] = static_cast<int>(s);
-      }
-    weight_.assign(result.orbits.size() * size_t(result.n), 0);
-    double largest = 1;
-    for (Eigen::Index k = 0; k < A.nonZeros(); ++k) largest = std::max(largest, std::abs(A.valuePtr()[k]));
-    tolerance_ = 64 * std::numeric_limits<double>::epsilon() * largest;
-  }
-
-  bool find() {
-    if (std::find(orbit_of_.begin(), orbit_of_.end(), -1) != orbit_of_.end()) return false;
-    for (int i = 0; i < static_cast<int>(result_.orbits.size()); ++i)
-      if (!(i < result_.fixed ? add_fixed(i) : add_row(i))) return false;
-    return true;
-  }
-
- private:
-  using Iterator = SparseMatrix::InnerIterator;
-
-  std::vector<SectorRows::Term> terms(int i) const {
-    std::vector<SectorRows::Term> terms;
-    for (Iterator it(A_, result_.orbits[size_t(i)][0]); it; ++it)
-      terms.push_back({orbit_of_[size_t(it.col())], sector_of_[size_t(it.col())], it.value()});
-    std::sort(terms.begin(), terms.end(),
-              [](const auto& a, const auto& b) { return std::pair(a.orbit, a.turn) < std::pair(b.orbit, b.turn); });
-    return terms;
-  }
-  double& weight(int orbit, int turn) { return weight_[size_t(orbit) * size_t(result_.n) + size_t(turn)]; }
-
-  /// What stays sees all sectors alike.
-  bool add_fixed(int i) {
-    const std::vector<SectorRows::Term> row = terms(i);
-    for (size_t first = 0, end = 0; first < row.size(); first = end) {
-      while (end < row.size() && row[end].orbit == row[first].orbit) ++end;
-      if (row[first].orbit < result_.fixed) continue;
-      const bool all = end - first == size_t(result_.n);
-      for (size_t k = first; k < end; ++k)
-        if (std::abs(row[k].weight - (all ? row[first].weight : 0)) > tolerance_) return false;
-    }
-    result_.rows.push_back(row);
-    return true;
-  }
-
-  bool add_row(int i) {
-    const std::vector<SectorRows::Term> row = terms(i);
-    const auto is_large = [&](double value) { return std::abs(value) > tolerance_; };
-    std::ptrdiff_t large = 0;
-    for (const SectorRows::Term& term : row) {
-      weight(term.orbit, term.turn) = term.weight;
-      large += is_large(term.weight);
-    }
-    bool same = true;
-    for (int s = 1; s < result_.n && same; ++s) {
-      std::ptrdiff_t met = 0;  // of the first row's large terms
-      for (Iterator it(A_, result_.orbits[size_t(i)][size_t(s)]); it && same; ++it) {
-        const int orbit = orbit_of_[size_t(it.col())], turn = sector_of_[size_t(it.col())] - s;
-        const double first = weight(orbit, orbit < result_.fixed ? 0 : turn < 0 ? turn + result_.n : turn);
-        met += is_large(first);
-        same = std::abs(it.value() - first) <= tolerance_;
-      }
-      same = same && met == large;
-    }
-    for (const SectorRows::Term& term : row) weight(term.orbit, term.turn) = 0;
-    result_.rows.push_back(row);
-    return same;
-  }
-
-  const SparseMatrix& A_;
-  SectorRows& result_;
-  std::vector<int> orbit_of_, sector_of_;  // by slot
-  std::vector<double> weight_;             // of the first row, by orbit and turn
-  double tolerance_ = 0;
-};
-
 /// Slot 0 and p orbits around it.
-std::vector<std::vector<int>> orbits_around(Eigen::Index slots, int n) {
+Orbits orbits_around(Eigen::Index slots, int n) {
   const int p = static_cast<int>(slots - 1) / n;
-  std::vector<std::vector<int>> orbits{{0}};
+  Orbits orbits{{0}};
   for (int i = 0; i < p; ++i) {
     orbits.emplace_back();
     for (int s = 0; s < n; ++s) orbits.back().push_back(1 + s * p + i);
@@ -208,22 +97,28 @@ std::vector<std::vector<int>> orbits_around(Eigen::Index slots, int n) {
 
 }  // namespace
 
-std::optional<SectorRows> sector_rows(const SparseMatrix& A, std::vector<std::vector<int>> orbits) {
-  SectorRows result;
-  std::stable_partition(orbits.begin(), orbits.end(), [](const auto& orbit) { return orbit.size() == 1; });
-  for (const auto& orbit : orbits) {
-    if (orbit.size() == 1)
-      ++result.fixed;
-    else if (result.n != 0 && result.n != static_cast<int>(orbit.size()))
-      return std::nullopt;
-    else
-      result.n = static_cast<int>(orbit.size());
+std::optional<SectorRows> sector_rows(const SparseMatrix& A, Orbits orbits) {
+  const auto others =
+      std::stable_partition(orbits.begin(), orbits.end(), [](const auto& orbit) { return orbit.size() == 1; });
+  const auto fixed = static_cast<int>(others - orbits.begin());
+  if (others == orbits.end()) return std::nullopt;
+  double largest = 1;
+  for (Eigen::Index k = 0; k < A.nonZeros(); ++k) largest = std::max(largest, std::abs(A.valuePtr()[k]));
+  const double tolerance = 64 * std::numeric_limits<double>::epsilon() * largest;
+  auto found = sector_rows_of<double, Complex>(
+      A.rows(), std::move(orbits),
+      [&](Index i, const auto& visit) {
+        for (SparseMatrix::InnerIterator it(A, i); it; ++it) visit(it.col(), it.value());
+      },
+      [&](double a, double b) { return std::abs(a - b) <= tolerance; });
+  if (!found) return std::nullopt;
+  SectorRows result{std::move(*found), fixed, {}};
+  std::vector<std::vector<Index>> columns;
+  for (const auto& row : result.rows) {
+    columns.emplace_back();
+    for (const auto& term : row) columns.back().push_back(term.orbit);
   }
-  if (result.n < 2) return std::nullopt;
-  result.orbits = std::move(orbits);
-  if (!SectorRowsFinder(A, result).find()) return std::nullopt;
-  result.components = strong_components(result.rows);
-  for (int t = 0; t < result.n; ++t) result.roots.push_back(root_of_unity(t, result.n));
+  result.components = strong_components(columns);
   return result;
 }
 
@@ -232,7 +127,7 @@ std::optional<SectorRows> sector_rows(const SparseMatrix& A, int n) {
   return sector_rows(A, orbits_around(A.rows(), n));
 }
 
-std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, std::vector<std::vector<int>> orbits) {
+std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, Orbits orbits) {
   std::optional<SectorRows> rows = sector_rows(SparseMatrix(A.sparseView()), std::move(orbits));
   if (!rows) return std::nullopt;
   FourierBlocks result{std::move(*rows), {}};
@@ -245,22 +140,11 @@ std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, int n) {
   return fourier_blocks(A, orbits_around(A.rows(), n));
 }
 
-Eigen::MatrixXcd SectorRows::block(int k) const {
-  const int first = k == 0 ? 0 : fixed, size = static_cast<int>(orbits.size());
-  Eigen::MatrixXcd B = Eigen::MatrixXcd::Zero(size - first, size - first);
-  for (int i = first; i < size; ++i)
-    for (const Term& term : rows[size_t(i)])
-      if (term.orbit >= first)
-        B(i - first, term.orbit - first) +=
-            term.weight * (term.orbit < fixed ? 1.0 : roots[size_t(std::int64_t{k} * term.turn % n)]);
-  return B;
-}
-
 std::vector<Complex> SectorRows::values(int k) const {
   const int first = k == 0 ? 0 : fixed;
   const Eigen::MatrixXcd B = block(k);
   std::vector<Complex> values;
-  for (const std::vector<int>& component : components) {
+  for (const std::vector<Index>& component : components) {
     std::vector<int> places;
     for (const int i : component)
       if (i >= first) places.push_back(i - first);
@@ -273,16 +157,6 @@ std::vector<Complex> SectorRows::values(int k) const {
     values.insert(values.end(), found.begin(), found.end());
   }
   return values;
-}
-
-Eigen::VectorXcd SectorRows::mask(int k, const Eigen::VectorXcd& l) const {
-  const int first = k == 0 ? 0 : fixed, size = static_cast<int>(orbits.size());
-  Eigen::VectorXcd result = Eigen::VectorXcd::Zero(fixed + n * (size - fixed));
-  for (int i = first; i < size; ++i)
-    for (int s = 0; s < static_cast<int>(orbits[i].size()); ++s)
-      result[orbits[i][s]] =
-          i < fixed ? l[i] : l[i - first] * std::conj(roots[size_t(std::int64_t{k} * s % n)]) / static_cast<double>(n);
-  return result;
 }
 
 namespace {

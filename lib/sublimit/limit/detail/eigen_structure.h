@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "sublimit/core/types.h"
+#include "sublimit/core/detail/sector_rows.h"
 
 namespace sublimit {
 
@@ -44,36 +44,20 @@ EigenStructure eigen_structure(const Eigen::MatrixXcd& matrix, int block = 0, in
 /// value).
 Eigen::MatrixXcd left_eigenvectors(const Eigen::MatrixXcd& A, std::complex<double> value);
 
-/// A sparse matrix that commutes with a rotation by one of n sectors, stored as the rows of one sector. The
-/// rotation permutes the slots in orbits of n, or leaves a slot fixed (an orbit of 1).
-struct SectorRows {
-  /// Weight of the slot of an orbit that lies `turn` sectors after that of the row.
-  struct Term {
-    int orbit, turn;
-    double weight;
-  };
-  int n = 0;                                 ///< number of sectors
-  std::vector<std::vector<int>> orbits;      ///< slots of each orbit, sector by sector; orbits of size 1 first
-  int fixed = 0;                             ///< number of orbits of size 1
-  std::vector<std::vector<Term>> rows;       ///< row of the first slot of each orbit; terms by orbit and turn
-  std::vector<std::vector<int>> components;  ///< strongly connected components of the orbits
-  std::vector<std::complex<double>> roots;   ///< exp(2 pi i t/n)
+/// A sparse matrix that commutes with a rotation by one of n sectors, n >= 2.
+struct SectorRows : SectorRowsOf<double, std::complex<double>> {
+  int fixed = 0;                               ///< number of orbits of size 1; they come first
+  std::vector<std::vector<Index>> components;  ///< strongly connected components of the orbits
 
-  /// Returns Fourier block k, which acts on the amplitudes x_i of orbits whose values are x_i w^(k s) in sector
-  /// s, w = exp(2 pi i/n). Only block 0 has the fixed slots.
-  Eigen::MatrixXcd block(int k) const;
   /// Returns the eigenvalues of block k with multiplicity, in any order. They are computed by component, since
   /// components are small.
   std::vector<std::complex<double>> values(int k) const;
-  /// Returns a left eigenvector l of block k as a mask over the slots: sum_s sum_i l_i w^(-k s) x_(s,i) / n,
-  /// plus l_i x_i of the fixed slots.
-  Eigen::VectorXcd mask(int k, const Eigen::VectorXcd& l) const;
 };
 
 /// Returns the rows of one sector of A; nothing unless A commutes with the rotation up to rounding. Compares
 /// all nonzeros.
 /// @param orbits  slots of each orbit, sector by sector
-std::optional<SectorRows> sector_rows(const SparseMatrix& A, std::vector<std::vector<int>> orbits);
+std::optional<SectorRows> sector_rows(const SparseMatrix& A, Orbits orbits);
 /// Returns the rows of sectors of a matrix in which slot 0 is fixed and slot 1 + s p + i is place i of sector s.
 std::optional<SectorRows> sector_rows(const SparseMatrix& A, int n);
 
@@ -83,7 +67,7 @@ struct FourierBlocks : SectorRows {
 };
 
 /// Returns the Fourier blocks of A; nothing unless A commutes with the rotation up to rounding.
-std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, std::vector<std::vector<int>> orbits);
+std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, Orbits orbits);
 /// Returns the Fourier blocks of a matrix whose slot 0 is fixed and whose slot 1 + s p + i is place i of sector s.
 std::optional<FourierBlocks> fourier_blocks(const Eigen::MatrixXd& A, int n);
 
