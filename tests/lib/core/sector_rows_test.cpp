@@ -6,8 +6,6 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
-#include "sublimit/core/detail/strong_components.h"
-
 namespace sublimit {
 namespace {
 

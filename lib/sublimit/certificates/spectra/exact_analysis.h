@@ -8,7 +8,6 @@
 #include "sublimit/base/detail/found_once.h"
 #include "sublimit/certificates/numbers/detail/exact_kernel.h"
 #include "sublimit/certificates/spectra/exact_spectrum.h"
-#include "sublimit/neighborhood/local_type.h"
 
 namespace sublimit {
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "sublimit/certificates/numbers/detail/exact_kernel.h"
-#include "sublimit/core/detail/strong_components.h"
 
 namespace sublimit {
 namespace {

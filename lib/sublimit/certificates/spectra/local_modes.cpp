@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "sublimit/limit/detail/eigen_structure.h"
-#include "sublimit/neighborhood/local_patch.h"
 
 namespace sublimit {
 namespace {

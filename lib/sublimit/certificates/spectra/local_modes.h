@@ -7,7 +7,7 @@
 #include <complex>
 #include <optional>
 
-#include "sublimit/neighborhood/local_type.h"
+#include "sublimit/neighborhood/local_patch.h"
 #include "sublimit/neighborhood/sector_mesh.h"
 #include "sublimit/scheme/scheme.h"
 

@@ -7,7 +7,8 @@
 //   B_k(i, j) = sum_t A(orbit_i[0], orbit_j[t]) w^(k t).
 //
 // An eigenvector x of B_k is one of A with the value x_i w^(k s) on slot s of orbit i. Fixed slots are only in block 0.
-// Those of a mirror are the even block (k = 0) and the odd one.
+// Those of a mirror are the even block (k = 0) and the odd one. Eigenvalues of a block are those of the strongly
+// connected components of its pattern: the diagonal blocks of its block triangular form.
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -162,5 +163,9 @@ std::optional<SectorRowsOf<T, Root>> sector_rows_of(Eigen::Index slots, Orbits o
   for (int t = 0; t < n; ++t) result.roots.push_back(root_of_unity<Root>(t, n));
   return result;
 }
+
+/// Returns the strongly connected components of a matrix's rows, each ascending.
+/// @param columns  columns of the nonzeros of each row, in any order, repeated or not
+std::vector<std::vector<Index>> strong_components(const std::vector<std::vector<Index>>& columns);
 
 }  // namespace sublimit

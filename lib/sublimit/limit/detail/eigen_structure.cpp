@@ -8,7 +8,6 @@
 #include "sublimit/core/detail/complex_decompositions.h"
 #include "sublimit/core/detail/dense_decompositions.h"
 #include "sublimit/core/detail/left_eigenvector.h"
-#include "sublimit/core/detail/strong_components.h"
 #include "sublimit/source/limit_status.h"
 
 namespace sublimit {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/core/detail/strong_components.h"
+#include "sublimit/core/detail/sector_rows.h"
 
 #include <algorithm>
 
