@@ -17,9 +17,9 @@ namespace {
 using Columns3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 /// Weights of Bernstein polynomials at t, and of their derivatives.
-struct Bernstein {
+struct BernsteinWeights {
   Eigen::RowVectorXd value, slope;
-  Bernstein(int degree, double t) : value(degree + 1), slope(degree + 1) {
+  BernsteinWeights(int degree, double t) : value(degree + 1), slope(degree + 1) {
     const auto fill = [&](int points, Eigen::RowVectorXd& w) {
       w[0] = 1;
       for (int q = 1; q <= points; ++q) blossom_step(UnitSpan<double>{}, q, UnitArgument<double>::point(t), w.data());
@@ -38,7 +38,7 @@ struct QuadJet {
 };
 QuadJet jet_of(const LimitQuad& quad, double s, double t) {
   const int d = quad.degree;
-  const Bernstein a(d, s), b(d, t);
+  const BernsteinWeights a(d, s), b(d, t);
   QuadJet jet{Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero()};
   const Eigen::RowVector3d origin = quad.net.row(0);
   for (int i = 0; i <= d; ++i) {
@@ -63,7 +63,7 @@ struct AreaRule {
     const Eigen::Index size = (degree + 1) * (degree + 1);
     x.resize(count, size), s.resize(count, size), t.resize(count, size);
     for (Eigen::Index q = 0; q < count; ++q) {
-      const Bernstein a(degree, nodes[size_t(q)].u), b(degree, nodes[size_t(q)].v);
+      const BernsteinWeights a(degree, nodes[size_t(q)].u), b(degree, nodes[size_t(q)].v);
       for (int i = 0; i <= degree; ++i)
         for (int j = 0; j <= degree; ++j) {
           const Eigen::Index c = i * (degree + 1) + j;
@@ -117,7 +117,7 @@ QuadMeasures measure(std::vector<LimitQuad>& quads, QuadEdges& edges) {
           for (int k = 0; k < points; ++k) {
             const double at = k / (points - 1.0);
             const Eigen::RowVector3d x =
-                edge.net.row(0) + Bernstein(d, at).value * Columns3(edge.net.rowwise() - edge.net.row(0));
+                edge.net.row(0) + BernsteinWeights(d, at).value * Columns3(edge.net.rowwise() - edge.net.row(0));
             std::vector<Eigen::Vector3d> normals;
             for (const QuadSide& use : edge.uses) {
               const double own = use.reversed ? 1 - at : at;

@@ -2,7 +2,7 @@
 #pragma once
 // Derivatives of a polynomial part in Bernstein form: the convex hulls of their coefficients bound them, de
 // Casteljau's algorithm evaluates them.
-#include <array>
+#include <vector>
 
 #include "sublimit/nets/piece_parts.h"
 
@@ -13,10 +13,12 @@ class NetDerivatives {
  public:
   /// @param net    Bernstein coefficients, a row each; 3 columns, or 4 for rational parts
   /// @param order  highest order of derivatives, 1 or 2
-  NetDerivatives(const PolynomialBasis& basis, Points net, int order);
+  NetDerivatives(const PolynomialBasis& basis, const Points& net, int order);
 
-  /// Returns the coefficients of the derivative of order du in u and dv in v; no rows if it is zero.
-  const Points& net(int du, int dv) const { return nets_[number(du, dv)]; }
+  /// Coefficients, a row each; the fourth column is zero unless the part is rational.
+  using Coefficients = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>>;
+  /// Returns the coefficients of the derivative of order du in u and dv in v, at most `order` in all.
+  Coefficients net(int du, int dv) const;
 
   /// Value and derivatives at a place. Second derivatives beyond `order` and a missing fourth column are zero.
   struct Jet {
@@ -26,12 +28,8 @@ class NetDerivatives {
   Jet at(double u, double v) const;
 
  private:
-  static size_t number(int du, int dv) { return size_t((du + dv) * (du + dv + 1) / 2 + dv); }  // x, u, v, uu, uv, vv
-  Eigen::Vector4d value(int du, int dv, double u, double v) const;
-
-  int degree_;
-  bool total_;
-  std::array<Points, 6> nets_;
+  using Net = Bernstein<double, Eigen::Vector4d>;
+  std::vector<Net> nets_;  // x, u, v, uu, uv, vv
 };
 
 }  // namespace sublimit

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/core/detail/bernstein.h"
 #include "sublimit/nets/piece_hull.h"
 #include "sublimit/surface/limit_map.h"
 
@@ -97,10 +98,13 @@ class PieceParts {
   std::map<std::pair<int, bool>, BernsteinQuarters> quarters_;
 };
 
+/// Returns the domain of a net.
+inline PieceShape net_shape(const PolynomialBasis& basis) {
+  return basis.total() ? PieceShape::triangle : PieceShape::square;
+}
 /// Returns the row of Bernstein coefficient (i, j) in its net.
 inline Eigen::Index net_row(const PolynomialBasis& basis, int i, int j) {
-  const int d = basis.degree();
-  return basis.total() ? i * (d + 1) - i * (i - 1) / 2 + j : i * (d + 1) + j;
+  return coefficient_number(net_shape(basis), basis.degree(), i, j);
 }
 /// Calls visit(i, j, row) for all Bernstein coefficients of a net.
 template <class Visit>

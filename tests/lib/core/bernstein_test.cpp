@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <random>
 
 #include "support/tolerance.h"
+#include "truth/fraction.h"
 
 namespace sublimit::testing {
 namespace {
@@ -34,6 +39,32 @@ TEST(Bernstein, ValuesOfProductsAreProductsOfValues) {
       EXPECT_GE(*std::ranges::min_element(product.coefficients()), 0.25 - other_route);
       EXPECT_LE(*std::ranges::max_element(product.coefficients()), 1 + other_route);
     }
+}
+
+TEST(Bernstein, VectorsOfCoefficientsAreOnePolynomialEach) {
+  for (const PieceShape shape : {PieceShape::square, PieceShape::triangle})
+    for (const int degree : {0, 1, 4}) {
+      Bernstein<double, Eigen::Vector2d> f(shape, degree, degree);
+      const Bernstein<double> x = random_polynomial(shape, degree, 3), y = random_polynomial(shape, degree, 4);
+      for (size_t k = 0; k < x.coefficients().size(); ++k)
+        f.coefficients()[k] << x.coefficients()[k], y.coefficients()[k];
+      const PiecePlace<double> p{0.3, 0.4};
+      EXPECT_EQ(f.at(p), Eigen::Vector2d(x.at(p), y.at(p)));
+      EXPECT_EQ(f.du().at(p), Eigen::Vector2d(x.du().at(p), y.du().at(p)));
+      EXPECT_EQ(f.dv().dv().at(p), Eigen::Vector2d(x.dv().dv().at(p), y.dv().dv().at(p)));
+    }
+}
+
+// Beyond degree 33 they are larger than 32-bit integers; the sum of a row is 2^n.
+TEST(Binomials, SumsOfRowsArePowersOfTwo) {
+  for (const int n : {0, 1, 33, 34, 60}) {
+    const std::vector<long double> row = binomials<long double>(n);
+    EXPECT_EQ(std::accumulate(row.begin(), row.end(), 0.0L), std::ldexp(1.0L, n)) << n;
+  }
+  Fraction sum(0), power(1);
+  for (const Fraction& c : binomials<Fraction>(40)) sum += c;
+  for (int i = 0; i < 40; ++i) power *= 2;
+  EXPECT_EQ(sum, power);
 }
 
 }  // namespace

@@ -2,9 +2,10 @@
 #pragma once
 // Polynomials over a square or a triangle by their Bernstein coefficients, in any number type. Exact numbers
 // prove identities. Balls prove signs, since a polynomial lies between its least and its greatest coefficient.
+// Polynomials of one variable have degree 0 in v.
 #include <array>
-#include <cstdint>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "sublimit/core/detail/binomial.h"
@@ -24,12 +25,26 @@ struct PiecePlace {
   T u, v;
 };
 
+/// Returns the number of coefficient b_ij, i for u and j for v, in order of i, then j. In the triangle i + j <= degree.
+/// @param degree_v  degree in v; the total degree of a triangle
+constexpr int coefficient_number(PieceShape shape, int degree_v, int i, int j) {
+  return shape == PieceShape::square ? i * (degree_v + 1) + j : i * (degree_v + 1) - i * (i - 1) / 2 + j;
+}
+
 /// A polynomial in Bernstein form.
-template <class T>
+/// @tparam C  type of coefficients: T, or vectors of fixed size of T as in Eigen
+template <class T, class C = T>
 class Bernstein {
  public:
+  /// Makes the zero polynomial; without coefficients if degree_u is -1.
   Bernstein(PieceShape shape, int degree_u, int degree_v)
-      : shape_(shape), du_(degree_u), dv_(degree_v), c_(static_cast<size_t>(count(shape, degree_u, degree_v))) {}
+      : shape_(shape), du_(degree_u), dv_(degree_v), c_(static_cast<size_t>(count(shape, du_, dv_)), zero()) {}
+  /// Makes a polynomial in u alone.
+  explicit Bernstein(std::vector<C> coefficients)
+      : shape_(PieceShape::square),
+        du_(static_cast<int>(coefficients.size()) - 1),
+        dv_(0),
+        c_(std::move(coefficients)) {}
 
   static int count(PieceShape shape, int du, int dv) {
     return shape == PieceShape::square ? (du + 1) * (dv + 1) : (du + 1) * (du + 2) / 2;
@@ -38,15 +53,13 @@ class Bernstein {
   PieceShape shape() const { return shape_; }
   int degree_u() const { return du_; }
   int degree_v() const { return dv_; }
-  std::vector<T>& coefficients() { return c_; }
-  const std::vector<T>& coefficients() const { return c_; }
-  /// Coefficients are b_ij, i for u and j for v; in the triangle i + j <= degree.
+  std::vector<C>& coefficients() { return c_; }
+  const std::vector<C>& coefficients() const { return c_; }
+  /// Returns the largest j of the coefficients b_ij.
   int last(int i) const { return shape_ == PieceShape::square ? dv_ : du_ - i; }
-  size_t index(int i, int j) const {
-    return static_cast<size_t>(shape_ == PieceShape::square ? i * (dv_ + 1) + j : i * (du_ + 1) - i * (i - 1) / 2 + j);
-  }
-  T& operator()(int i, int j) { return c_[index(i, j)]; }
-  const T& operator()(int i, int j) const { return c_[index(i, j)]; }
+  size_t index(int i, int j) const { return static_cast<size_t>(coefficient_number(shape_, dv_, i, j)); }
+  C& operator()(int i, int j) { return c_[index(i, j)]; }
+  const C& operator()(int i, int j) const { return c_[index(i, j)]; }
 
   /// Returns the derivative by u (v); zero of degree 0 if the polynomial has degree 0 in this direction.
   Bernstein du() const { return derivative(1, 0); }
@@ -56,7 +69,7 @@ class Bernstein {
   /// 0), p1 (u = 1), p2 (v = 1). Coefficients are
   /// computed as values of the blossom at the corners.
   Bernstein restricted(const PiecePlace<T>& p0, const PiecePlace<T>& p1, const PiecePlace<T>& p2) const;
-  T at(const PiecePlace<T>& p) const;
+  C at(const PiecePlace<T>& p) const;
 
   /// Returns the quarters of the piece.
   std::array<Bernstein, 4> quarters() const;
@@ -67,40 +80,56 @@ class Bernstein {
   }
 
  private:
+  static C zero() {
+    if constexpr (std::is_same_v<T, C>)
+      return C();
+    else
+      return C::Zero();
+  }
   Bernstein derivative(int iu, int iv) const;
 
   PieceShape shape_;
   int du_, dv_;
-  std::vector<T> c_;
+  std::vector<C> c_;
 };
 
 namespace bernstein_detail {
 
-/// Returns the factor of B_ij: B_ij = weight * u^i v^j * (powers of the other coordinates). Degrees are at most 60 for
-/// floating-point numbers; others are made of 32-bit integers, and binomial coefficients are such up to degree 33.
-template <class T>
-T weight(const Bernstein<T>& f, int i, int j) {
-  const std::int64_t of_i = binomial(f.degree_u(), i);
-  const std::int64_t of_j = binomial(f.shape() == PieceShape::square ? f.degree_v() : f.degree_u() - i, j);
-  if constexpr (std::is_floating_point_v<T>)
-    return T(of_i) * T(of_j);
-  else
-    return T(static_cast<int>(of_i)) * T(static_cast<int>(of_j));
+/// Calls visit(b_ij, weight) for all coefficients; B_ij = weight * u^i v^j * (powers of the other coordinates).
+template <class T, class Visit>
+void for_each_weight(Bernstein<T>& f, const Visit& visit) {
+  const std::vector<T> of_u = binomials<T>(f.degree_u());
+  std::vector<T> of_v = binomials<T>(f.degree_v());
+  for (int i = 0; i <= f.degree_u(); ++i) {
+    if (f.shape() == PieceShape::triangle) of_v = binomials<T>(f.last(i));
+    for (int j = 0; j <= f.last(i); ++j) visit(f(i, j), T(of_u[static_cast<size_t>(i)] * of_v[static_cast<size_t>(j)]));
+  }
 }
 
 /// One step of de Casteljau on n values spaced `stride` apart, towards t.
-template <class T>
-void step(T* b, int n, int stride, const T& t) {
+template <class T, class C>
+void step(C* b, int n, int stride, const T& t) {
   const T s = T(1) - t;
   for (int k = 0; k + 1 < n; ++k) b[k * stride] = s * b[k * stride] + t * b[(k + 1) * stride];
 }
 
+/// Returns the coefficients of a line over [0, t] and over [t, 1].
+template <class T, class C>
+std::array<std::vector<C>, 2> split_line(std::vector<C> c, const T& t) {
+  std::vector<C> first;
+  for (int n = static_cast<int>(c.size()); n > 0; --n) {
+    first.push_back(c[0]);
+    step(c.data(), n, 1, t);
+  }
+  return {std::move(first), std::move(c)};
+}
+
 /// Replaces n Bernstein coefficients over [0, 1], spaced `stride` apart, by those over [a, b].
-template <class T>
-void restrict_line(T* c, int n, int stride, const T& a, const T& b) {
-  std::vector<T> result;
+template <class T, class C>
+void restrict_line(C* c, int n, int stride, const T& a, const T& b) {
+  std::vector<C> result;
   for (int i = 0; i < n; ++i) {
-    std::vector<T> work;
+    std::vector<C> work;
     for (int k = 0; k < n; ++k) work.push_back(c[k * stride]);
     for (int r = 0; r + 1 < n; ++r) step(work.data(), n - r, 1, r < i ? b : a);
     result.push_back(work[0]);
@@ -110,8 +139,8 @@ void restrict_line(T* c, int n, int stride, const T& a, const T& b) {
 
 }  // namespace bernstein_detail
 
-template <class T>
-Bernstein<T> Bernstein<T>::derivative(int iu, int iv) const {
+template <class T, class C>
+Bernstein<T, C> Bernstein<T, C>::derivative(int iu, int iv) const {
   const bool square = shape_ == PieceShape::square;
   const int degree = square ? (iu ? du_ : dv_) : du_;
   if (degree == 0) return Bernstein(shape_, du_, dv_);
@@ -121,8 +150,9 @@ Bernstein<T> Bernstein<T>::derivative(int iu, int iv) const {
   return r;
 }
 
-template <class T>
-Bernstein<T> Bernstein<T>::restricted(const PiecePlace<T>& p0, const PiecePlace<T>& p1, const PiecePlace<T>& p2) const {
+template <class T, class C>
+Bernstein<T, C> Bernstein<T, C>::restricted(const PiecePlace<T>& p0, const PiecePlace<T>& p1,
+                                            const PiecePlace<T>& p2) const {
   Bernstein r = *this;
   if (shape_ == PieceShape::square) {
     for (int j = 0; j <= dv_; ++j) bernstein_detail::restrict_line(&r.c_[r.index(0, j)], du_ + 1, dv_ + 1, p0.u, p1.u);
@@ -146,8 +176,8 @@ Bernstein<T> Bernstein<T>::restricted(const PiecePlace<T>& p0, const PiecePlace<
   return r;
 }
 
-template <class T>
-T Bernstein<T>::at(const PiecePlace<T>& p) const {
+template <class T, class C>
+C Bernstein<T, C>::at(const PiecePlace<T>& p) const {
   Bernstein b = *this;
   if (shape_ == PieceShape::square) {
     for (int i = 0; i <= du_; ++i)
@@ -162,8 +192,8 @@ T Bernstein<T>::at(const PiecePlace<T>& p) const {
   return b.c_[0];
 }
 
-template <class T>
-std::array<Bernstein<T>, 4> Bernstein<T>::quarters() const {
+template <class T, class C>
+std::array<Bernstein<T, C>, 4> Bernstein<T, C>::quarters() const {
   const T o(0), h = Number<T>::ratio(1, 2), l(1);
   if (shape_ == PieceShape::square)
     return {restricted({o, o}, {h, o}, {o, h}), restricted({h, o}, {l, o}, {h, h}), restricted({o, h}, {h, h}, {o, l}),
@@ -175,17 +205,14 @@ std::array<Bernstein<T>, 4> Bernstein<T>::quarters() const {
 /// Returns the product, whose degree is the sum of the degrees.
 template <class T>
 Bernstein<T> operator*(const Bernstein<T>& f, const Bernstein<T>& g) {
-  using bernstein_detail::weight;
+  using bernstein_detail::for_each_weight;
   Bernstein<T> r(f.shape(), f.degree_u() + g.degree_u(), f.degree_v() + g.degree_v()), wf = f, wg = g;
-  for (Bernstein<T>* p : {&wf, &wg})
-    for (int i = 0; i <= p->degree_u(); ++i)
-      for (int j = 0; j <= p->last(i); ++j) (*p)(i, j) *= weight(*p, i, j);
+  for (Bernstein<T>* p : {&wf, &wg}) for_each_weight(*p, [](T& c, const T& weight) { c *= weight; });
   for (int i = 0; i <= f.degree_u(); ++i)
     for (int j = 0; j <= f.last(i); ++j)
       for (int k = 0; k <= g.degree_u(); ++k)
         for (int l = 0; l <= g.last(k); ++l) r(i + k, j + l) += wf(i, j) * wg(k, l);
-  for (int i = 0; i <= r.degree_u(); ++i)
-    for (int j = 0; j <= r.last(i); ++j) r(i, j) /= weight(r, i, j);
+  for_each_weight(r, [](T& c, const T& weight) { c /= weight; });
   return r;
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace sublimit {
 namespace {
@@ -18,14 +17,9 @@ struct Interval {
 };
 Interval operator+(const Interval& a, const Interval& b) { return {a.low + b.low, a.high + b.high}; }
 
-/// Of rows; the last side is that of what is no coordinate, 0 where there is none.
-Box box_of(const Points& net) {
+Box box_of(const NetDerivatives::Coefficients& net) {
   Box box;
-  Eigen::Vector4d x = Eigen::Vector4d::Zero();
-  for (Eigen::Index i = 0; i < net.rows(); ++i) {
-    x.head(net.cols()) = net.row(i);
-    box.extend(x);
-  }
+  for (Eigen::Index i = 0; i < net.rows(); ++i) box.extend(Eigen::Vector4d(net.row(i)));
   return box;
 }
 
@@ -74,12 +68,9 @@ std::optional<ConvexMinimum> NetDistance::convex_minimum(double distance) const 
   if (is_rational() && !(d > 0)) return std::nullopt;
   Points scaled = net_;
   if (is_rational()) scaled.col(3) *= d;
-  const NetDerivatives derivatives(basis_, std::move(scaled), 2);
+  const NetDerivatives derivatives(basis_, scaled, 2);
   const Box x = box_of(derivatives.net(0, 0)), u = box_of(derivatives.net(1, 0)), v = box_of(derivatives.net(0, 1));
-  const auto second = [&](int du, int dv) {
-    const Box box = box_of(derivatives.net(du, dv));
-    return box.isEmpty() ? Interval{} : product(x, box);
-  };
+  const auto second = [&](int du, int dv) { return product(x, box_of(derivatives.net(du, dv))); };
   const Interval huu = product(u, u) + second(2, 0), hvv = product(v, v) + second(0, 2),
                  huv = product(u, v) + second(1, 1);
   const double off = std::max(std::abs(huv.low), std::abs(huv.high));

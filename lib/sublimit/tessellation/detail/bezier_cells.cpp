@@ -34,7 +34,7 @@ class Halves {
     Points values(triangle_.size(), 3);
     for_each_net_row(triangle_, [&](int i, int j, Eigen::Index row) {
       const double s = double(i) / triangle_.degree(), t = double(j) / triangle_.degree();
-      values.row(row) = half == 0 ? x.at(s + t, t).x : x.at(s, s + t).x;
+      values.row(row) = (half == 0 ? x.at(s + t, t) : x.at(s, s + t)).x.head<3>();
     });
     cell.net = from_values_ * values;
     return cell;

@@ -24,9 +24,7 @@
 namespace sublimit {
 namespace {
 
-double largest(const Eigen::Ref<const Points, 0, Eigen::OuterStride<>>& net) {
-  return net.rows() > 0 ? net.rowwise().norm().maxCoeff() : 0;
-}
+double largest(const Eigen::Ref<const Points, 0, Eigen::OuterStride<>>& net) { return net.rowwise().norm().maxCoeff(); }
 
 /// Bounds on the first and second derivatives of a part.
 struct DerivativeBounds {
@@ -69,7 +67,7 @@ DerivativeBounds close_bounds(const PolynomialBasis& basis, const Points& net) {
   constexpr int most_degree = 20;  // products of three are of degree 60, up to which binomial coefficients are exact
   if (d > most_degree) return quick_bounds(basis, net);
   const auto column = [&](int k) {
-    Polynomial p(basis.total() ? PieceShape::triangle : PieceShape::square, d, d);
+    Polynomial p(net_shape(basis), d, d);
     for_each_net_row(basis, [&](int i, int j, Eigen::Index row) { p(i, j) = net(row, k); });
     return p;
   };
@@ -110,7 +108,8 @@ double chord_bound(const PolynomialBasis& basis, const Points& net, double enoug
     return quick <= enough ? quick : std::min(quick, close_bounds(basis, centred).chord());
   }
   const NetDerivatives x(basis, net, 2);
-  return (largest(x.net(2, 0)) + 2 * largest(x.net(1, 1)) + largest(x.net(0, 2))) / 8;
+  const auto second = [&](int du, int dv) { return largest(x.net(du, dv).leftCols(3)); };
+  return (second(2, 0) + 2 * second(1, 1) + second(0, 2)) / 8;
 }
 
 /// Whether normals of a rational part are nowhere farther apart: x_u and x_v leave what they are in the middle by no
@@ -132,11 +131,14 @@ bool is_within_angle(const PolynomialBasis& basis, const std::vector<Points>& ne
   std::vector<Eigen::Vector3d> normals;
   for (const Points& net : nets) {
     const NetDerivatives x(basis, net, 1);
-    for (Eigen::Index i = 0; i < x.net(1, 0).rows(); ++i)
-      for (Eigen::Index j = 0; j < x.net(0, 1).rows(); ++j) {
-        const Eigen::Vector3d u = x.net(1, 0).row(i), v = x.net(0, 1).row(j);
+    const NetDerivatives::Coefficients in_u = x.net(1, 0), in_v = x.net(0, 1);
+    for (Eigen::Index i = 0; i < in_u.rows(); ++i) {
+      const Eigen::Vector3d u = in_u.row(i).head<3>();
+      for (Eigen::Index j = 0; j < in_v.rows(); ++j) {
+        const Eigen::Vector3d v = in_v.row(j).head<3>();
         normals.push_back(u.cross(v).normalized());
       }
+    }
   }
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& n : normals) mean += n;

@@ -42,6 +42,9 @@ TEST(LinePolynomial, SumsProductsAndDerivativesAreThoseOfItsValues) {
     EXPECT_EQ(value(f.elevated(9), t), value(f, t));
     EXPECT_EQ(f.elevated(9).degree(), 9);
     EXPECT_EQ((f * g).degree(), f.degree() + g.degree());
+    const auto [first, second] = f.halves();
+    EXPECT_EQ(value(first, t), value(f, t / 2));
+    EXPECT_EQ(value(second, t), value(f, (1 + t) / 2));
     // (f g)' = f' g + f g'
     EXPECT_EQ(value((f * g).derivative(), t), value(f.derivative() * g + f * g.derivative(), t));
   }
