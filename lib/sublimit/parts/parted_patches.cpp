@@ -34,10 +34,8 @@ PiecePart whole_part(const Patch::BezierRows& bezier, bool triangle, const Point
   if (!triangle && (bezier.degree_u < degree || bezier.degree_v < degree))
     net = outer_product(raising_rows(bezier.degree_v, degree), raising_rows(bezier.degree_u, degree)) * net;
   Points& ordered = part.nets.emplace_back(net.rows(), net.cols());
-  for_each_net_row(*part.basis, [&](int i, int j, Eigen::Index row) {
-    const int before = triangle ? j * (degree + 1) - j * (j - 1) / 2 : j * (degree + 1);  // rows of u below j
-    ordered.row(row) = net.row(before + i);
-  });
+  for_each_net_row(*part.basis,
+                   [&](int i, int j, Eigen::Index row) { ordered.row(row) = net.row(net_row(*part.basis, j, i)); });
   return part;
 }
 

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "sublimit/patches/joins/line_search.h"
 #include "sublimit/surface/detail/shared_places.h"
 
 namespace sublimit {
@@ -41,9 +42,6 @@ class SidePoints {
   std::vector<Place> places_;
   LimitSamples samples_;
 };
-
-/// The largest distance between points of the same number; not a number if some are none.
-double distance(const Points& a, const Points& b) { return (a - b).rowwise().norm().maxCoeff<Eigen::PropagateNaN>(); }
 
 /// Lines by where their middles are, in cubes so large that those of the same are in neighbouring ones.
 class LinesByMiddle {
@@ -130,7 +128,7 @@ SharedSides::SharedSides(const BoundSource& surface, FaceCount faces, const Side
       Side& side = sides_[corner(face, k)];
       Points own = points.of(face, k, few);
       if (!own.allFinite()) continue;
-      const auto from_start = [](const Points& x) { return distance(x, x.row(0).replicate(x.rows(), 1)); };
+      const auto from_start = [](const Points& x) { return curve_distance(x, x.row(0).replicate(x.rows(), 1), false); };
       if (from_start(own) <= options.same) {
         const double length = from_start(points.of(face, k, steps));
         if (length <= options.same && may_join(corner(face, k), corner(face, k + 1))) {
@@ -143,9 +141,9 @@ SharedSides::SharedSides(const BoundSource& surface, FaceCount faces, const Side
       by_middle.for_each_near(own.row(few / 2), [&](size_t which) {
         Line& line = lines[which];
         for (const bool reversed : {true, false}) {  // neighbours of one orientation go there in opposite directions
-          const auto turned = [&](const Points& x) { return reversed ? Points(x.colwise().reverse()) : x; };
-          if (!(distance(turned(own), line.points) <= options.same)) continue;
-          const double gap = distance(turned(points.of(face, k, steps)), points.of(line.face, line.side, steps));
+          if (!(curve_distance(line.points, own, reversed) <= options.same)) continue;
+          const double gap =
+              curve_distance(points.of(line.face, line.side, steps), points.of(face, k, steps), reversed);
           const size_t start = corner(line.face, line.side + (reversed ? 1 : 0)),
                        end = corner(line.face, line.side + (reversed ? 0 : 1));
           if (!(gap <= options.same) || !may_join(corner(face, k), start) || !may_join(corner(face, k + 1), end))

@@ -2,6 +2,8 @@
 #pragma once
 // Sides that faces of patches share. Patches know nothing of each other, so that sides are compared as curves: two are
 // one if they are the same curve in the same parameter, either way round; a side may also be a single point, a pole.
+// `patch_seams` is about whole sides of B-splines, which it also finds in other parameters and in chains, since it only
+// measures how they join; here numbers of places depend on the answer, so that no two of a class may be far apart.
 //
 //   const SharedSides sides(surface.samples(), surface.faces(), {.same = 1e-9, .degree = 3});
 //   if (sides.number(0, {cell_steps, 0}) == sides.number(1, {0, 0})) std::cout << "faces 0 and 1 have a common

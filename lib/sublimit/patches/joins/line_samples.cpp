@@ -59,11 +59,8 @@ std::vector<SideCurve> side_curves(std::span<const PatchColumns> patches, Coordi
 }
 
 std::optional<bool> same_curve(const SideCurve& a, const SideCurve& b, double same) {
-  for (const bool reversed : {false, true}) {
-    const double distance = reversed ? (a.points - b.points.colwise().reverse()).rowwise().norm().maxCoeff()
-                                     : (a.points - b.points).rowwise().norm().maxCoeff();
-    if (distance <= same) return reversed;
-  }
+  for (const bool reversed : {false, true})
+    if (curve_distance(a.points, b.points, reversed) <= same) return reversed;
   return std::nullopt;
 }
 

@@ -7,6 +7,13 @@
 
 namespace sublimit {
 
+double curve_distance(const Eigen::Ref<const Points>& a, const Eigen::Ref<const Points>& b, bool reversed) {
+  const auto largest = [&](const auto& differences) {
+    return differences.rowwise().norm().template maxCoeff<Eigen::PropagateNaN>();
+  };
+  return reversed ? largest(a - b.colwise().reverse()) : largest(a - b);
+}
+
 NearestOnLine nearest_on_line(const std::function<Eigen::RowVector3d(double)>& curve,
                               const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>& samples,
                               const Eigen::RowVector3d& point) {

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Nearest point of a curve, by samples and golden section search between the neighbours of the nearest sample.
+// Curves by samples: how far apart two are, and the nearest point of one, by golden section search between the
+// neighbours of the nearest sample.
 #include <Eigen/Core>
 
 #include <functional>
-#include <vector>
+
+#include "sublimit/core/types.h"
 
 namespace sublimit {
+
+/// Returns the largest distance between two curves at equal parameters; not a number if a sample is not finite.
+/// @param a, b      samples at evenly spaced parameters, as many of each
+/// @param reversed  true: the second curve is traversed backwards
+double curve_distance(const Eigen::Ref<const Points>& a, const Eigen::Ref<const Points>& b, bool reversed);
 
 /// Parameter and distance of a nearest point.
 struct NearestOnLine {
