@@ -3,6 +3,7 @@
 // Lane, Riesenfeld 1980, "A theoretical development for the computer generation and display of piecewise polynomial
 // surfaces": every point doubled, then `degree` times the midpoints of all edges. The mask has the binomial
 // coefficients of degree + 1, the limit is the uniform B-spline of that degree.
+#include "sublimit/core/detail/binomial.h"
 #include "sublimit/curves/schemes/curve_ends.h"
 
 namespace sublimit {
@@ -17,14 +18,13 @@ CurveScheme<T> lane_riesenfeld(const SchemeOptions& options) {
                         .values = {"free", "interpolate"},
                         .meaning = "free starts (degree - 1)/2 edges after the first point, interpolate in that point"};
   const int degree = whole_option(options, info);
-  std::vector<int> binomial(degree + 2, 1);
-  for (int i = 1; i <= degree + 1; ++i) binomial[i] = binomial[i - 1] * (degree + 2 - i) / i;
+  const std::vector<int> choose = binomials<int>(degree + 1);
   // A child with coefficient `middle` for its own point has those two further away for each step along the curve.
   const auto mask = [=](int middle) {
     return [=](const CurveSite<T>& p) {
       Stencil<T> sum;
       for (int i = middle % 2; i <= degree + 1; i += 2)
-        sum += p.ratio(binomial[i], 1 << degree) * p.point((middle - i) / 2);
+        sum += p.ratio(choose[i], 1 << degree) * p.point((middle - i) / 2);
       return sum;
     };
   };

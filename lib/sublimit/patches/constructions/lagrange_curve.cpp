@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sublimit/core/detail/binomial.h"
 #include "sublimit/patches/constructions/polynomial_curves.h"
 #include "sublimit/patches/detail/spline_rows.h"
 #include "sublimit/source/detail/derivative_order.h"
@@ -48,16 +49,12 @@ std::optional<Points> lagrange_to_bezier(const LagrangeBasis& basis) {
   const Points left = ends(false), right = ends(true);
   for (Index i = 0; i <= n; ++i) {
     const bool from_left = 2 * i <= n;
-    double binomial = 1;
-    for (Index j = 0; j <= (from_left ? i : n - i); ++j) {
-      if (from_left) {
-        points.row(i) += binomial * left.row(j);
-        binomial = binomial * (i - j) / (j + 1);
-      } else {
-        points.row(i) += (j % 2 == 0 ? binomial : -binomial) * right.row(j);
-        binomial = binomial * (n - i - j) / (j + 1);
-      }
-    }
+    const std::vector<double> choose = binomials<double>(from_left ? i : n - i);
+    for (Index j = 0; j < std::ssize(choose); ++j)
+      if (from_left)
+        points.row(i) += choose[size_t(j)] * left.row(j);
+      else
+        points.row(i) += (j % 2 == 0 ? choose[size_t(j)] : -choose[size_t(j)]) * right.row(j);
   }
   // What rows of the Bezier form give for the basis polynomials, between nodes and at them.
   const Knots<double> knots = bezier_knots<double>(n);

@@ -18,9 +18,7 @@ namespace {
 Knots<double> bernstein_knots(int degree) {
   if (degree < 0 || degree > max_degree)
     throw InvalidParameter("degree " + format_number(degree) + "; 0 to " + format_number(max_degree) + " are right");
-  std::vector<double> knots(size_t(degree) + 1, 0.0);
-  knots.insert(knots.end(), size_t(degree) + 1, 1.0);
-  return Knots<double>::open(degree, degree + 1, std::move(knots));
+  return bezier_knots<double>(degree);
 }
 
 /// f(0, .., 0, 1, .., 1), `ones` times 1, of the blossom f of t^power at this degree: C(ones, power) / C(degree,
