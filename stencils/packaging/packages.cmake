@@ -55,7 +55,7 @@ install(FILES ${packaging}/linked.spdx DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/
 sublimit_package(libsublimit-dev "subdivision surfaces as sparse matrices (development files)"
                  "Headers, static libraries, CMake's find_package(sublimit), and\npkg-config's sublimit, sublimit-lib and sublimit-eval."
                  SECTION libdevel
-                 DEPENDS libtbb-dev libhwy-dev "libeigen3-dev (>= 3.4)"
+                 DEPENDS libtbb-dev libhwy-dev "libeigen3-dev (>= 3.4)" zlib1g-dev
                  RECOMMENDS libflint-dev libflint-arb-dev libfmt-dev libzip-dev nlohmann-json3-dev
                  SUGGESTS libopenvdb-dev libocct-data-exchange-dev libocct-modeling-algorithms-dev libopenmpi-dev petsc64-dev)
 if(TARGET sublimit)

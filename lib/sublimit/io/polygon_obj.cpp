@@ -6,6 +6,7 @@
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/formats.h"
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/io/detail/obj_indices.h"
 #include "sublimit/io/detail/obj_keywords.h"
 #include "sublimit/io/detail/polygon_files.h"
@@ -102,7 +103,7 @@ ControlPolygon read_polygon(const std::filesystem::path& path, bool tangents) {
       throw FormatError(path.string() + ": points with tangents or derivatives are expected; give them as a " +
                         io_formats().readers_in_words({contents::tangents}, "or") +
                         " with columns x,y,tx,ty or x,y,z,tx,ty,tz");
-    return format->parse_polygon(read_file(path), path.string(), tangents);
+    return format->parse_polygon(read_inflated(path), path.string(), tangents);
   }
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);

@@ -6,13 +6,17 @@
 
 namespace sublimit {
 
-/// Returns the extension of a path in lower case: ".obj" for MESH.OBJ, empty if there is none.
+/// Returns the extension of a path in lower case: ".obj" for MESH.OBJ, ".obj.gz" for mesh.obj.gz, empty if there is
+/// none.
 inline std::string file_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
+  const auto lower_case = [](std::string extension) {
+    for (char& c : extension) {
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return extension;
+  };
+  const std::string extension = lower_case(path.extension().string());
+  return extension == ".gz" ? lower_case(path.stem().extension().string()) + extension : extension;
 }
 
 }  // namespace sublimit

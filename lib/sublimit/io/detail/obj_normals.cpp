@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/io/detail/obj_indices.h"
 #include "sublimit/io/detail/text_scanner.h"
 
@@ -89,7 +89,9 @@ class ObjNormals {
 
 }  // namespace
 
-Points read_obj_normals(const std::filesystem::path& path) { return parse_obj_normals(read_file(path), path.string()); }
+Points read_obj_normals(const std::filesystem::path& path) {
+  return parse_obj_normals(read_inflated(path), path.string());
+}
 
 Points parse_obj_normals(std::string_view text, std::string_view name) {
   require_text(text, name, "OBJ");
