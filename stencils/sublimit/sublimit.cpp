@@ -17,7 +17,7 @@ namespace {
 
 /// @throws InvalidMesh  names of some faces, which no result would have
 MeshJob job_of(const Mesh& mesh, const AnyScheme& scheme) {
-  check_face_names(mesh);
+  check_attributes(mesh);
   MeshJob job;
   job.mesh = mesh;
   job.scheme = *scheme.for_mesh(mesh);

@@ -21,10 +21,10 @@ struct MaySkip {
 };
 const MaySkip may_skip[] = {
     {"programs that are missing: skipped on a desk, a failure in CI", {"support/skip.h"}},
-    {"OpenSubdiv's regression shapes and meshes that fuzzing found are not ours to publish; a clone without "
+    {"OpenSubdiv's regression shapes, meshes that fuzzing found and files that people reported are not ours to publish; a clone without "
      "../shared/meshes compares meshes of the tests' own",
      {"lib/every_ray_sweep_test.cpp", "lib/every_scheme_sweep_test.cpp", "lib/every_surface_sweep_test.cpp",
-      "lib/fit/shared_meshes_fit_test.cpp", "lib/fit/shared_meshes_polygons_test.cpp",
+      "lib/fit/shared_meshes_fit_test.cpp", "lib/fit/shared_meshes_polygons_test.cpp", "lib/io/reported_files_test.cpp",
       "lib/primvar/opensubdiv_face_varying_test.cpp", "lib/shared_meshes_test.cpp",
       "stencils/report/asset/asset_shared_meshes_test.cpp", "stencils/bake/bake_test.cpp",
       "stencils/bake/one_origin_test.cpp", "stencils/cli/cli_found_limits_test.cpp", "stencils/cli/cli_found_test.cpp",

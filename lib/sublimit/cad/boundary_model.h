@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sublimit/cad/step.h"
 #include "sublimit/core/types.h"
 
 namespace sublimit {
@@ -50,6 +51,7 @@ struct BoundaryModel {
   Points vertices;
   std::vector<SplineEdge> edges;
   std::vector<SplineFace> faces;
+  LengthUnit unit = LengthUnit::mm;
 };
 
 }  // namespace sublimit

@@ -16,15 +16,19 @@ namespace sublimit {
 /// How two faces of a file meet: at the same points (g0), or with the same tangent planes too (g1).
 enum class StepJoin { g0, g1 };
 
+/// Unit of length of coordinates, written into STEP files; numbers stay as they are.
+enum class LengthUnit { mm, m, inch };
+
 /// How `step` approximates and names faces. For patches only `tolerance` matters.
 struct StepOptions {
   /// Largest distance, a length > 0. For limit surfaces: of the caps around extraordinary vertices from the limit;
   /// 1e-5 of the diagonal of the control points if absent. For patches: between sides that become one edge; 1e-9 of
   /// the diagonal if absent.
   std::optional<double> tolerance = {};
-  StepJoin join = StepJoin::g0;     ///< how caps meet their neighbours; g1 under schemes of quadrilaterals alone
-  bool pack = true;                 ///< regular faces as the largest B-splines that keep knots and smoothness
-  Mesh::FaceNames face_names = {};  ///< STEP names of the mesh's faces; faces of different names are not packed
+  StepJoin join = StepJoin::g0;      ///< how caps meet their neighbours; g1 under schemes of quadrilaterals alone
+  bool pack = true;                  ///< regular faces as the largest B-splines that keep knots and smoothness
+  LengthUnit unit = LengthUnit::mm;  ///< of STEP; a .brep has none
+  Mesh::FaceNames face_names = {};   ///< STEP names of the mesh's faces; faces of different names are not packed
 };
 
 /// Statistics of a file that `step` wrote.

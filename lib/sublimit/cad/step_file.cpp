@@ -30,7 +30,9 @@ LimitModel model_of(const LimitSurface& surface, const LimitModelOptions& option
   }
 }
 
-StepFile write_model(const BoundaryModel& model, const std::filesystem::path& path, const CadFileMaker& make) {
+StepFile write_model(BoundaryModel model, LengthUnit unit, const std::filesystem::path& path,
+                     const CadFileMaker& make) {
+  model.unit = unit;
   if (model.faces.empty()) throw InvalidMesh("no faces to write");
   const CadFile made = make(model, path.stem().string(), io_formats().writes(path, contents::step));
   AtomicFile file(path);
@@ -48,6 +50,8 @@ void check_step(const std::filesystem::path& path, const StepOptions& options) {
   if (!io_formats().writes(path, contents::cad))
     throw InvalidOption(path.string() + ": CAD files are " + io_formats().writers_in_words({contents::cad}, "or") +
                         ", not '" + file_extension(path) + "'");
+  if (options.unit != LengthUnit::mm && !io_formats().writes(path, contents::step))
+    throw InvalidOption(path.string() + ": only STEP files have a unit of length; write one, or leave the unit out");
   if (options.tolerance && !(*options.tolerance > 0 && std::isfinite(*options.tolerance)))
     throw InvalidParameter("tolerance is " + format_number(*options.tolerance) +
                            "; it should be a length, more than 0");
@@ -64,7 +68,7 @@ StepFile write_step(const LimitSurface& surface, const std::filesystem::path& pa
   wanted.pack = options.pack;
   wanted.face_names = options.face_names;
   const LimitModel model = model_of(surface, wanted);
-  StepFile file = write_model(model.boundary, path, make);
+  StepFile file = write_model(model.boundary, options.unit, path, make);
   file.caps = model.caps;
   file.deviation = model.deviation;
   file.met = model.met;
@@ -83,7 +87,7 @@ StepFile write_step(const Patches& patches, const std::filesystem::path& path, c
   PatchModelOptions wanted;
   const double diagonal = diagonal_of(patches.points());
   if (options.tolerance && diagonal > 0) wanted.same = *options.tolerance / diagonal;
-  return write_model(patch_model(named, wanted).boundary, path, make);
+  return write_model(patch_model(named, wanted).boundary, options.unit, path, make);
 }
 
 }  // namespace sublimit

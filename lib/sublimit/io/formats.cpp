@@ -8,6 +8,7 @@
 #include "sublimit/io/detail/off.h"
 #include "sublimit/io/detail/ply.h"
 #include "sublimit/io/detail/polygon_files.h"
+#include "sublimit/mesh/detail/attributes.h"
 
 namespace sublimit {
 namespace {
@@ -79,9 +80,10 @@ std::vector<FileFormat> rows() {
        .begins = begins_obj,
        .reads = {{meshes}, {mesh_parts}, {contents::vertex_normals}, {polygons, ".obj (lines)"}, {free_form}},
        .writes = {{meshes}, {polygons, ".obj (lines)"}, {free_form}},
-       .holds = {creases, corners, knot_intervals, holes, rules, face_varying, face_names, MeshField::vertex_normals,
-                 corner_normals, face_ids, comments},
-       .keeps = {creases, corners, knot_intervals, holes, rules, face_varying, face_names},
+       .holds = {creases, corners, knot_intervals, holes, rules, face_varying, groups, objects, materials,
+                 smoothing_groups, MeshField::vertex_normals, corner_normals, face_ids, vertex_colours, comments},
+       .keeps = {creases, corners, knot_intervals, holes, rules, face_varying, groups, objects, materials,
+                 smoothing_groups, vertex_colours},
        .read_mesh = read_obj,
        .write_mesh = write_obj,
        .parse_polygon = [](std::string_view text, std::string_view name,
@@ -92,7 +94,7 @@ std::vector<FileFormat> rows() {
        .begins = [](const FileStart& start) { return start.word == "ply"; },
        .reads = {{meshes}, {mesh_parts, "binary .ply"}, {contents::vertex_values}},
        .writes = {{meshes}, {mesh_parts}, {contents::vertex_values}},
-       .holds = {MeshField::vertex_normals, texture, face_ids, MeshField::vertex_values, comments},
+       .holds = {MeshField::vertex_normals, texture, face_ids, vertex_colours, MeshField::vertex_values, comments},
        .read_mesh = read_ply,
        .write_mesh = write_ply},
       {.name = "an OFF file", .extensions = {".off"}, .begins = begins_off, .reads = {{meshes}}, .read_mesh = read_off},
@@ -142,12 +144,22 @@ std::vector<MeshField> fields_of(const Mesh& mesh) {
   add(!mesh.holes.empty(), holes);
   add(mesh.boundary || mesh.creasing || mesh.triangles || mesh.face_varying_interpolation, rules);
   add(!mesh.face_varying.empty(), face_varying);
-  add(!mesh.face_names.of_face.empty(), face_names);
+  add(!mesh.groups.of_face.empty(), groups);
+  add(!mesh.objects.of_face.empty(), objects);
+  add(!mesh.materials.of_face.empty(), materials);
+  add(!mesh.smoothing_groups.of_face.empty(), smoothing_groups);
   add(mesh.normals.rows() > 0 && mesh.face_normals.empty(), vertex_normals);
   add(!mesh.face_normals.empty(), corner_normals);
   add(mesh.texture.rows() > 0, texture);
   add(!mesh.face_ids.empty(), face_ids);
-  add(!mesh.vertex_values.empty(), vertex_values);
+  const auto add_values = [&](const std::vector<Mesh::Values>& values, MeshField colours, MeshField others) {
+    const auto found = find_colours(values);
+    const std::ptrdiff_t taken = found ? 3 + ((*found)[3] >= 0) : 0;
+    add(found.has_value(), colours);
+    add(std::ssize(values) > taken, others);
+  };
+  add_values(mesh.vertex_values, vertex_colours, vertex_values);
+  add_values(mesh.face_values, face_colours, face_values);
   add(!mesh.comments.empty(), comments);
   return fields;
 }
@@ -166,8 +178,14 @@ std::string_view name_of(MeshField field) {
       return "rules of refinement";
     case MeshField::face_varying:
       return "texture coordinates of corners";
-    case MeshField::face_names:
-      return "names of faces";
+    case MeshField::groups:
+      return "groups";
+    case MeshField::objects:
+      return "objects";
+    case MeshField::materials:
+      return "materials";
+    case MeshField::smoothing_groups:
+      return "smoothing groups";
     case MeshField::vertex_normals:
       return "normals";
     case MeshField::corner_normals:
@@ -176,8 +194,14 @@ std::string_view name_of(MeshField field) {
       return "texture coordinates of vertices";
     case MeshField::face_ids:
       return "numbers of faces";
+    case MeshField::vertex_colours:
+      return "colours of vertices";
     case MeshField::vertex_values:
       return "values at vertices";
+    case MeshField::face_colours:
+      return "colours of faces";
+    case MeshField::face_values:
+      return "values of faces";
     case MeshField::comments:
       return "comments";
   }

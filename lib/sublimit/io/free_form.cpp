@@ -122,7 +122,7 @@ class FreeFormReader {
       current = static_cast<Index>(shapes_.matrices.size());
       shapes_.matrices.push_back(std::move(matrix));
     } else if (keyword == "g" || keyword == "o") {
-      (keyword == "g" ? group_ : object_) = names_.read(scanner_, shapes_.names);
+      (keyword == "g" ? group_ : object_) = names_.number(rest_of_line(scanner_), shapes_.names);
     } else {
       return false;
     }

@@ -6,6 +6,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/writer_parts.h"
+#include "sublimit/mesh/detail/attributes.h"
 
 namespace sublimit {
 namespace {
@@ -25,6 +26,28 @@ void emit_rows(const char* keyword, const Points& rows, RowWriter& out) {
   });
 }
 
+/// Vertices, with their colours.
+void emit_vertices(const Mesh& mesh, RowWriter& out) {
+  const auto colours = find_colours(mesh.vertex_values);
+  if (!colours) return emit_rows("v", mesh.positions, out);
+  Points rows(mesh.num_vertices(), 3 + ((*colours)[3] >= 0 ? 4 : 3));
+  rows.leftCols(3) = mesh.positions;
+  for (Eigen::Index k = 3; k < rows.cols(); ++k)
+    for (Eigen::Index v = 0; v < rows.rows(); ++v)
+      rows(v, k) = colour_in_unit(mesh.vertex_values[std::size_t((*colours)[std::size_t(k - 3)])], std::size_t(v));
+  emit_rows("v", rows, out);
+}
+
+/// A line that names the faces from here on, where the name changes.
+void append_name(const char* keyword, const Mesh::FaceNames& names, std::int64_t face, std::string& out) {
+  if (names.of_face.empty()) return;
+  const Index* const name = names.of_face.data() + face;
+  if (face == 0 ? *name < 0 : *name == name[-1]) return;
+  out += keyword;
+  if (*name >= 0) out += ' ' + names.names[std::size_t(*name)];
+  out += '\n';
+}
+
 /// @param first  corner of face `begin`
 void append_faces(const Mesh& mesh, std::int64_t begin, std::int64_t end, std::size_t first, std::string& out) {
   const bool per_corner = !mesh.face_normals.empty();
@@ -40,14 +63,11 @@ void append_faces(const Mesh& mesh, std::int64_t begin, std::int64_t end, std::s
         append_number(out, *id);
         out += '\n';
       }
-    } else if (!mesh.face_names.of_face.empty()) {
-      const Index* const name = mesh.face_names.of_face.data() + face;
-      if (face == 0 ? *name >= 0 : *name != name[-1]) {
-        out += 'g';
-        if (*name >= 0) out += ' ' + mesh.face_names.names[std::size_t(*name)];
-        out += '\n';
-      }
     }
+    append_name("o", mesh.objects, face, out);
+    if (mesh.face_ids.empty()) append_name("g", mesh.groups, face, out);
+    append_name("usemtl", mesh.materials, face, out);
+    append_name("s", mesh.smoothing_groups, face, out);
     out += 'f';
     for (std::size_t i = first; i < last; ++i) {
       out += ' ';
@@ -148,7 +168,8 @@ void emit_tags(const Mesh& mesh, RowWriter& out) {
 
 void emit_obj(const Mesh& mesh, RowWriter out) {
   out.write(format_comments(mesh.comments, "# "));
-  emit_rows("v", mesh.positions, out);
+  for (const std::string& file : mesh.material_files) out.write("mtllib " + file + '\n');
+  emit_vertices(mesh, out);
   if (!mesh.face_varying.empty()) emit_rows("vt", mesh.face_varying[0].values, out);
   emit_rows("vn", mesh.normals, out);
   emit_faces(mesh, out);

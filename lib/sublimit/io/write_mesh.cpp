@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/parallel_for.h"
@@ -57,7 +56,11 @@ bool in_range(const std::vector<Index>& ids, Index first, Eigen::Index count) {
   });
 }
 
-bool is_index(double x) { return x == std::floor(x) && std::abs(x) <= std::numeric_limits<Index>::max(); }
+void check_name(const std::string& text, const std::string& name, const char* what) {
+  if (text.find_first_of("#\n\r") != std::string::npos || text.ends_with('\\'))
+    throw InvalidParameter(name + ": a " + what +
+                           " has a character that OBJ has no way to write: the end of a line, # or a last \\");
+}
 
 /// Whether no face has fewer than three corners, nor one at a vertex that there is not.
 bool are_sound(const std::vector<Index>& face_sizes, const std::vector<Index>& face_vertices, Eigen::Index vertices) {
@@ -108,16 +111,16 @@ void check_output(const Mesh& mesh, const std::string& name) {
   require(mesh.face_ids.empty() || mesh.face_ids.size() == mesh.face_sizes.size(), name,
           "there should be an id for each face, or for none");
 
-  naming(name, [&] { check_face_names(mesh); });
-  for (const std::string& text : mesh.face_names.names)
-    require(text.find_first_of("#\n\r") == std::string::npos && !text.ends_with('\\'), name,
-            "a name of faces has a character that OBJ has no way to write: the end of a line, # or a last \\");
-
-  for (const Mesh::VertexValues& further : mesh.vertex_values) {
-    require(std::ssize(further.values) == vertices, name, "there should be a further value for each vertex");
-    require(!further.whole || std::ranges::all_of(further.values, is_index), name,
-            "a further value of a vertex is no whole number of 32 bits");
-  }
+  naming(name, [&] { check_attributes(mesh); });
+  for (const Mesh::FaceNames* const names : {&mesh.groups, &mesh.objects, &mesh.materials, &mesh.smoothing_groups})
+    for (const std::string& text : names->names) check_name(text, name, "name of faces");
+  for (const std::string& text : mesh.material_files) check_name(text, name, "file of materials");
+  for (const std::vector<Mesh::Values>* const values : {&mesh.vertex_values, &mesh.face_values})
+    for (const Mesh::Values& one : *values)
+      if (const auto bad = std::ranges::find_if(one.values, [](double x) { return !std::isfinite(x); });
+          bad != one.values.end())
+        throw InvalidMesh(name + ": value '" + one.name + "' number " + format_number(bad - one.values.begin()) +
+                          " is " + format_number(*bad) + "; it should be finite");
 
   naming(name, [&] { check_tags(mesh); });
   for (const Mesh::KnotInterval& interval : mesh.knot_intervals) {

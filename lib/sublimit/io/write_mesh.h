@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Writes meshes to .obj and .ply files.
+// Writes meshes to .obj, .ply, .off and .stl files.
 //
 //   write_mesh("fine.obj", refine(read_mesh("coarse.obj"), "loop", 2));
 #include <cstdint>
@@ -12,11 +12,12 @@
 
 namespace sublimit {
 
-/// Writes .obj or .ply, by the extension of `path` in either case. The file appears whole or not at all.
+/// Writes .obj, .ply, .off or .stl, by the extension of `path` in either case. The file appears whole or not at all.
 ///
 /// OBJ holds tags, names of faces, the first face-varying channel as `vt` of 1 to 3 columns, and normals, which
-/// are left out at faces that lack one at a corner. PLY holds texture coordinates, further values and normals of
-/// vertices, and numbers of faces.
+/// are left out at faces that lack one at a corner. PLY holds texture coordinates and normals of vertices, numbers of
+/// faces, values of both in their types, and the first face-varying channel if it has 2 columns, as floats. OFF holds
+/// colours. STL holds triangles alone, as floats: polygons are cut into fans.
 /// @param progress  called with the number of bytes written so far, if given
 /// @throws InvalidOption     another extension
 /// @throws InvalidMesh       faces and tags that `refine` refuses, in the same words; coordinates that are not finite

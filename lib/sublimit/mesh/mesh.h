@@ -34,6 +34,14 @@ enum class FaceVaryingInterpolation {
   boundaries,     ///< along seams and boundaries
   all,            ///< everywhere: bilinear
 };
+/// What becomes of values at vertices when a mesh is refined.
+enum class Attributes {
+  smooth,  ///< they are refined by the scheme, as positions are
+  linear,  ///< they are interpolated linearly in faces and along edges
+  drop,    ///< they are left out, and so are names and values of faces
+};
+/// How a file keeps numbers (the types of PLY). In a mesh all are of type double.
+enum class ValueType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 /// A mesh: a control mesh, a refined mesh, or triangles near a surface. All but positions and faces may be absent.
 /// `make_mesh` makes one from arrays, `read_mesh` from a file; `write_mesh` writes one. Plain data.
@@ -77,26 +85,32 @@ struct [[nodiscard]] Mesh {
   std::vector<FaceVarying> face_varying = {};
   std::optional<FaceVaryingInterpolation> face_varying_interpolation = {};  ///< if absent, `all`: linear everywhere
 
-  /// Names of faces in files: their group, or their object if they are in no group.
+  /// Names of faces.
   struct FaceNames {
     std::vector<std::string> names = {};  ///< different names
     std::vector<Index> of_face = {};      ///< number in `names` for each face, -1 for none; empty: no face has one
   };
-  FaceNames face_names = {};
+  FaceNames groups = {}, objects = {};              ///< lines `g` and `o` of an OBJ
+  FaceNames materials = {}, smoothing_groups = {};  ///< lines `usemtl` and `s`
+  std::vector<std::string> material_files = {};     ///< lines `mtllib`
 
   Points normals = {};  ///< #normals x 3; no rows: none
   /// Row in `normals` for each corner, -1 for none; empty: normals are per vertex.
   std::vector<Index> face_normals = {};
   Points texture = {};               ///< #V x 2 texture coordinates per vertex, for PLY (`s`, `t`); no rows: none
   std::vector<Index> face_ids = {};  ///< a number for each face: PLY's `face_id`, OBJ's groups `g face_ID`; empty: none
-  /// A named number for each vertex.
-  struct VertexValues {
+  /// A named number for each vertex or for each face.
+  struct Values {
     std::string name = {};
-    std::vector<double> values = {};  ///< #V
-    bool whole = false;               ///< written as integers of 32 bits
+    std::vector<double> values = {};
+    ValueType type = ValueType::float64;  ///< in files; values of integer types are rounded when they are written
   };
-  std::vector<VertexValues> vertex_values = {};  ///< further properties of vertices in PLY; OBJ has no place for them
-  std::vector<std::string> comments = {};        ///< comment lines at the top of the file
+  /// Properties of vertices and of faces in PLY. Colours are `red`, `green`, `blue` and `alpha`: 0 to 255 if their type
+  /// is uint8, 0 to 1 otherwise. OBJ has colours of vertices alone.
+  std::vector<Values> vertex_values = {}, face_values = {};
+  std::optional<Attributes> attributes = {};  ///< if absent, `smooth`
+
+  std::vector<std::string> comments = {};  ///< comment lines at the top of the file
 
   std::vector<std::string> warnings = {};  ///< reservations of the reader, each with file:line
 
@@ -104,6 +118,9 @@ struct [[nodiscard]] Mesh {
   /// @param points  #V x 3
   /// @throws InvalidParameter  another number of rows or columns
   Mesh with_points(Points points) const;
+
+  /// Returns the name of each face: its group, or its object if it is in no group.
+  FaceNames face_names() const;
 
   Index num_vertices() const { return static_cast<Index>(positions.rows()); }
   Index num_faces() const { return static_cast<Index>(face_sizes.size()); }

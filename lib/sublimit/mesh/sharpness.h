@@ -89,4 +89,21 @@ inline bool is_cut(const Topology& t, const Sharpness& sharpness, HalfEdge h) {
 /// Returns the edge between two vertices, in either direction: the first one if there are several, -1 if there is none.
 Edge find_edge(const Topology& topology, Vertex a, Vertex b);
 
+/// Makes edges of two faces whose normals differ by more than an angle infinitely sharp. Tags that the mesh has win.
+/// Faces without an area have no normal, and their edges stay as they are.
+/// @param angle  radians, 0 to pi
+/// @return  the number of edges
+/// @throws InvalidMesh, InvalidParameter
+Index add_creases_by_angle(Mesh& mesh, double angle);
+
+/// Makes edges between faces of different smoothing groups infinitely sharp; faces in none ("off", "0") are in no
+/// common group. Tags that the mesh has win.
+/// @return  the number of edges
+/// @throws InvalidMesh  bad connectivity, or no face has a smoothing group
+Index add_creases_by_smoothing_groups(Mesh& mesh);
+
+/// Makes all border vertices infinitely sharp corners: the border stays the polygon that it is.
+/// @throws InvalidMesh  bad connectivity
+void fix_border(Mesh& mesh);
+
 }  // namespace sublimit

@@ -44,17 +44,6 @@ void check_faces(const MeshView& mesh) {
                         "; the mesh has vertices 0 to " + number(mesh.num_vertices - 1));
 }
 
-void check_face_names(const Mesh& mesh) {
-  const Mesh::FaceNames& names = mesh.face_names;
-  if (!names.of_face.empty() && names.of_face.size() != mesh.face_sizes.size())
-    throw InvalidMesh(std::to_string(names.of_face.size()) + " faces have names; all of the " +
-                      std::to_string(mesh.face_sizes.size()) + " should, or none");
-  for (const Index name : names.of_face)
-    if (name < -1 || name >= std::ssize(names.names))
-      throw InvalidMesh("a face has the name number " + number(name) + "; there are " +
-                        std::to_string(names.names.size()) + ", from 0, and -1 is none");
-}
-
 namespace {
 
 /// Items 0..#keys-1 sorted by key, stable: bucket b holds items[start[b]] .. items[start[b+1]-1].
@@ -157,8 +146,9 @@ class Matcher {
       }
       if (shared_.size() == 1 && b.tail[shared_[0]] == b.tail[h]) {
         bad = true;
-        fault(Kind::inconsistent_winding, "faces " + number(face_[shared_[0]]) + " and " + number(face_[h]) +
-                                              " use edge " + edge_name(h) + " in the same direction; flip one of them");
+        fault(Kind::inconsistent_winding,
+              "faces " + number(face_[shared_[0]]) + " and " + number(face_[h]) + " use edge " + edge_name(h) +
+                  " in the same direction, so that it becomes sharp there; turn one of them");
       }
       shared_.push_back(h);
     }

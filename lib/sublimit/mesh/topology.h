@@ -158,4 +158,11 @@ class Topology {
   std::vector<Fault> faults_;
 };
 
+/// Turns faces so that neighbours run through their edge in opposite directions, as few in each connected part as
+/// possible. Where that is impossible (a Moebius strip), some edges stay as they were. Edges of three and more faces
+/// connect nothing.
+/// @return  the faces that were turned, ascending; their first corners stay
+/// @throws InvalidMesh  bad connectivity
+std::vector<Index> orient_faces(Mesh& mesh);
+
 }  // namespace sublimit

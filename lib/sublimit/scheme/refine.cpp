@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <unordered_set>
 
@@ -283,6 +284,20 @@ SparseMatrix refinement_matrix(const std::vector<Level>& levels) {
   if (levels.size() > 2) product(levels[2].S, levels[1].S).swap(P);
   for (size_t k = 3; k < levels.size(); ++k) product(levels[k].S, P).swap(P);
   return P;
+}
+
+void follow_faces(std::vector<Index>& faces, const Refinement& step) {
+  std::vector<Index> children(step.face_parent.size());
+  for (size_t f = 0; f < children.size(); ++f) children[f] = faces[size_t(step.face_parent[f])];
+  faces.swap(children);
+}
+
+std::vector<Index> control_faces(std::span<const Level> levels) {
+  std::vector<Index> faces(size_t(levels.front().topology().num_faces()));
+  std::iota(faces.begin(), faces.end(), 0);
+  for (const Level& level : levels.subspan(1))
+    for (const Refinement& step : level.steps) follow_faces(faces, step);
+  return faces;
 }
 
 double predicted_vertices(const Scheme<double>& scheme, const Topology& t, int level) {

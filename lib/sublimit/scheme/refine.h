@@ -101,6 +101,13 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent);
 /// k = 0.
 [[nodiscard]] SparseMatrix refinement_matrix(const std::vector<Level>& levels);
 
+/// Returns for each face of the last level the face of the first one that it comes from: its own parent, or one at its
+/// edge or vertex.
+std::vector<Index> control_faces(std::span<const Level> levels);
+/// Follows faces one step back.
+/// @param faces  faces of the parent's level 0 for each face of the parent; becomes that of each child
+void follow_faces(std::vector<Index>& faces, const Refinement& step);
+
 /// Returns the number of vertices of a level without refining; exact except for dual steps across borders.
 double predicted_vertices(const Scheme<double>& scheme, const Topology& control, int level);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
+#include "sublimit/mesh/detail/attributes.h"
 #include "sublimit/scheme/detail/check_levels.h"
 #include "sublimit/scheme/detail/refine_impl.h"
 
@@ -236,8 +238,22 @@ Points Refiner::Stage::points(const Points& coarse) const {
 
 namespace {
 
+/// Values at vertices that are refined as positions are; no columns if they are not.
+Points smooth_values(const Mesh& mesh) {
+  return mesh.attributes == Attributes::linear ? Points(mesh.num_vertices(), 0) : vertex_values(mesh);
+}
+
+/// Follows faces to the children of a primal split.
+void follow_faces(std::vector<Index>& faces, const Topology& parent, Split split) {
+  std::vector<Index> children;
+  for (Index f = 0; f < parent.num_faces(); ++f)
+    children.insert(children.end(), size_t(split == Split::ptq ? 4 : parent.size(Face{f})), faces[size_t(f)]);
+  faces.swap(children);
+}
+
 /// Levels one after the other; the last one's faces and tags come back, and what keeps level 0 from being a manifold as
 /// warnings.
+/// Faces have the names and values of their parents.
 /// @param on_step  called for each step, with what is there then
 template <class OnStep>
 Mesh refine_steps(const Scheme<double>& scheme, const Mesh& mesh, int levels, const SubdivisionOptions& options,
@@ -246,8 +262,14 @@ Mesh refine_steps(const Scheme<double>& scheme, const Mesh& mesh, int levels, co
   check_levels(scheme, level.topology(), levels, is_simple(scheme, level) ? LevelMemory::mesh : LevelMemory::points);
   std::vector<std::string> warnings;
   for (const Topology::Fault& fault : level.topology().faults()) warnings.push_back(fault.message);
-  const auto with_warnings = [&](Mesh refined) {
+  std::vector<Index> faces;  // of level 0, for each face; empty if these carry nothing
+  if (has_face_attributes(mesh)) {
+    faces.resize(size_t(level.topology().num_faces()));
+    std::iota(faces.begin(), faces.end(), 0);
+  }
+  const auto finished = [&](Mesh refined) {
     refined.warnings = std::move(warnings);
+    if (!faces.empty()) carry_faces(mesh, faces, refined);
     return refined;
   };
   for (int k = 1; k <= levels; ++k) {
@@ -259,26 +281,31 @@ Mesh refine_steps(const Scheme<double>& scheme, const Mesh& mesh, int levels, co
         check_wide_faces(scheme.name, scheme.corners, level.topology(), level.number);
       const Sharpness none;
       on_step(StepView{scheme, step, level.topology(), numbers, level.sharpness, none, level.number, nullptr});
-      return with_warnings(simple_mesh(level, numbers, mesh, options));
+      if (!faces.empty()) follow_faces(faces, level.topology(), step.split);
+      return finished(simple_mesh(level, numbers, mesh, options));
     }
     level = next_topology(
         scheme, level,
         [&](const Step<double>& step, const Topology& topology, const Refinement& refinement,
             const Sharpness& sharpness, const Sharpness& child_sharpness, const KnotSplit* knots) {
           on_step(StepView{scheme, step, topology, refinement, sharpness, child_sharpness, level.number, knots});
+          if (!faces.empty()) follow_faces(faces, refinement);
         });
   }
-  return with_warnings(level_mesh(level, {}, mesh, options));
+  return finished(level_mesh(level, {}, mesh, options));
 }
 
 }  // namespace
 
 Mesh refined_mesh(const Scheme<double>& scheme, const Mesh& mesh, int levels, const SubdivisionOptions& options,
                   const std::function<void(int)>& progress) {
-  Points points = mesh.positions;
-  Mesh refined = refine_steps(scheme, mesh, levels, options, progress,
-                              [&](const StepView& step) { points = step_points(step, points); });
+  Points points = mesh.positions, values = smooth_values(mesh);
+  Mesh refined = refine_steps(scheme, mesh, levels, options, progress, [&](const StepView& step) {
+    points = step_points(step, points);
+    if (values.cols() > 0) values = step_points(step, values);
+  });
   refined.positions.swap(points);
+  set_vertex_values(refined, mesh, values);
   return refined;
 }
 
@@ -287,6 +314,7 @@ Refiner::Refiner(const Scheme<double>& scheme, const Mesh& mesh, int levels, con
     : num_control_points_(mesh.num_vertices()) {
   mesh_ = refine_steps(scheme, mesh, levels, options, progress,
                        [&](const StepView& step) { stages_.push_back(std::make_unique<const Stage>(step)); });
+  if (const Points values = smooth_values(mesh); values.cols() > 0) set_vertex_values(mesh_, mesh, points(values));
 }
 
 Refiner::~Refiner() = default;

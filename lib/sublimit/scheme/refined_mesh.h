@@ -21,8 +21,9 @@ namespace sublimit {
 /// @throws UnsupportedTopology  a face that the scheme cannot take
 /// @throws ResourceError        more elements than 32-bit indices, or more memory than the machine has; predicted
 ///                              before memory is taken
-/// @note  Face-varying channels are left out (primvar/face_varying.h). Warnings of the result say what keeps the mesh
-///        from being a manifold.
+/// @note  Faces have the names and values of their parents, vertices the values refined as positions are. Face-varying
+///        channels are left out (primvar/face_varying.h), and so are linear values (primvar/vertex_values.h). Warnings
+///        of the result say what keeps the mesh from being a manifold.
 Mesh refined_mesh(const Scheme<double>& scheme, const Mesh& mesh, int levels, const SubdivisionOptions& options = {},
                   const std::function<void(int)>& progress = {});
 
@@ -41,7 +42,7 @@ class Refiner {
   Refiner(Refiner&&) noexcept;
   Refiner& operator=(Refiner&&) noexcept;
 
-  /// Returns faces and tags of the last level, without positions.
+  /// Returns faces and tags of the last level with what they carry, without positions.
   const Mesh& mesh() const { return mesh_; }
   Index num_control_points() const;
   /// Returns the number of points of the last level.

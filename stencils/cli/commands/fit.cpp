@@ -114,7 +114,8 @@ int fit_linear(const FitOptions& options, Progress& progress,
                           loaded.mesh.positions, fit);
   });
   write_outputs(
-      options, [&] { write_mesh(options.output, mesh, progress.bytes_written()); }, picture, fit.report, progress);
+      options, [&] { write_output(options.common, options.output, mesh, loaded.mesh, progress); }, picture, fit.report,
+      progress);
   return 0;
 }
 

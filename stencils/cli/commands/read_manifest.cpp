@@ -56,10 +56,16 @@ BakeJob read_job(const std::string& text_of_line, const std::string& manifest, s
   job.derivatives = line.integer_or("derivatives", 0, 2, job.derivatives);
   job.is_float = line.word_or("precision", std::array{"float", "double"}, job.is_float ? 0 : 1) == 0;
   job.tags = line.flag_or("tags", job.tags);
-  rule("boundary", boundary_words, common.boundary);
+  rule("boundary", boundary_and_fixed_words, common.boundary);
   rule("creasing", creasing_words, common.creasing);
   rule("triangles", triangles_words, common.triangles);
   rule("face-varying", face_varying_words, common.face_varying);
+  rule("attributes", attributes_words, common.attributes);
+  if (text("sidecar", common.sidecar) && common.sidecar != "none")
+    common.sidecar = (directory / common.sidecar).string();
+  common.orient = line.flag_or("orient", common.orient);
+  if (line.has("crease-angle")) common.crease_angle = line.number_or("crease-angle", 0);
+  common.crease_smoothing_groups = line.flag_or("crease-smoothing-groups", common.crease_smoothing_groups);
   common.triangulate = line.flag_or("triangulate", common.triangulate);
   common.no_creases = line.flag_or("no-creases", common.no_creases);
   common.strict = line.flag_or("strict", common.strict);

@@ -10,6 +10,7 @@
 #include "support/curves.h"
 #include "support/free_form.h"
 #include "support/normal_surfaces.h"
+#include "sublimit/primvar/vertex_values.h"
 
 namespace sublimit::cli {
 namespace {
@@ -21,23 +22,6 @@ struct RefineOptions {
   bool no_tags = false;
 };
 
-/// Tells which tags and texture coordinates the output has no place for.
-/// @param has_channel  there are texture coordinates, in `out` or not
-void tell_left_out(const RefineOptions& options, const Mesh& out, bool has_channel) {
-  using enum MeshField;
-  const FileFormat* const format = all_formats().find(options.output);
-  std::vector<MeshField> fields = left_out(*format, out);
-  std::erase_if(fields, [](MeshField field) {
-    return !(field == creases || field == corners || field == knot_intervals || field == holes);
-  });
-  if (has_channel && !all_formats().holds(options.output, face_varying)) fields.push_back(face_varying);
-  if (options.common.quiet || fields.empty()) return;
-  std::vector<std::string> names;
-  for (const MeshField field : fields) names.emplace_back(name_of(field));
-  fmt::print(stderr, "sublimit: note: {}: {} has no place for {}; written as {} the mesh keeps them\n", options.output,
-             format->name, listed(names, "and"), listed(all_formats().holders(fields.front()), "or"));
-}
-
 int refine_mesh(const RefineOptions& options) {
   check_output_path(options.output, all_formats().writers({contents::meshes}));
   if (!options.matrix.empty()) check_output_path(options.matrix, all_formats().writers({contents::matrices}));
@@ -47,9 +31,8 @@ int refine_mesh(const RefineOptions& options) {
   Mesh out;
   if (options.matrix.empty() && !has_channel(loaded, options.output)) {
     naming_mesh(options.common, [&] {
-      out = mesh_output(refined_mesh(*loaded.scheme, loaded.mesh, options.levels, loaded.rules,
-                                     telling_levels(progress, options.levels)),
-                        !options.no_tags);
+      out = refined_positions(loaded, options.levels, telling_levels(progress, options.levels));
+      if (options.no_tags) out = without_tags(std::move(out));
     });
     progress.step("writing " + options.output);
   } else {
@@ -66,15 +49,14 @@ int refine_mesh(const RefineOptions& options) {
     progress.step("writing " + options.output);
     out = level_output(levels.back(), refined_points(levels, loaded.mesh.positions), loaded.mesh, loaded.rules,
                        !options.no_tags);
+    carry_attributes(loaded.mesh, levels, refined_vertex_values(*loaded.scheme, loaded.mesh, levels), out);
   }
   if (!channel.empty()) {
     add_channel(out, channel.back(), loaded.mesh.face_varying[0].name,
                 refined_values(channel, loaded.mesh.face_varying[0].values));
     if (!options.no_tags) out.face_varying_interpolation = loaded.face_varying;
   }
-  write_mesh(options.output, out, progress.bytes_written());
-  progress.step("");
-  tell_left_out(options, out, !loaded.mesh.face_varying.empty());
+  write_output(options.common, options.output, out, loaded.mesh, progress);
   return 0;
 }
 

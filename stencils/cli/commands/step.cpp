@@ -70,7 +70,7 @@ int run(const StepJob& job) {
     wanted.tolerance = tolerance;
     wanted.join_smoothly = job.join == "g1";
     wanted.pack = !job.no_packing;
-    wanted.face_names = loaded.mesh.face_names;
+    wanted.face_names = loaded.mesh.face_names();
     wanted.progress = [&](const std::string& what) { progress.note(what); };
     model = limit_model(surface, control, wanted);
     if (model.boundary.faces.empty()) throw InvalidMesh("no faces to write");
@@ -90,6 +90,7 @@ int run(const StepJob& job) {
       "  caps off the limit by {:.3g} at most; angles {:.3g} degrees at their borders, {:.3g} between them, {:.3g} "
       "between exact faces\n",
       model.deviation, m.cap_angle * degrees, m.between_caps * degrees, m.exact_angle * degrees);
+  tell_unit(job);
   if (!model.met) fmt::print("  tolerance {:.3g}: not met\n", tolerance);
   return status;
 }
@@ -108,6 +109,8 @@ Command add_step(CLI::App& app) {
   command->add_option(
       "--join", job->join,
       "How caps join exact faces: g0 (default), or g1, with common tangent planes (schemes of quadrilaterals)");
+  command->add_option("--unit", job->unit, "Unit of the coordinates, written into STEP (default mm); numbers stay")
+      ->check(CLI::IsMember(std::vector<std::string>{"mm", "m", "inch"}));
   command->add_flag("--no-packing", job->no_packing, "A face for each patch");
   command->add_option("--report", job->report, "OUT.json: faces, deviation, angles, area and volume of file and limit");
   command->add_option("-o,--output", job->output, "OUT.step, OUT.stp or OUT.brep; faces that are holes are left out")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/step_job.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 
 #include "support/loaded_library.h"
@@ -25,17 +27,25 @@ void write_whole_file(const std::string& path, const std::string& text, Progress
 
 CadFileEntry* prepare_step(const StepJob& job) {
   check_output_path(job.output, all_formats().writers({contents::cad}));
+  if (!job.unit.empty() && !all_formats().writes(job.output, contents::step))
+    throw InvalidOption("--unit: only STEP files have a unit of length; " + job.output + " has none");
   if (!job.report.empty()) check_output_path(job.report, all_formats().writers({contents::reports}));
   if (!job.report.empty()) check_not_sidecar("--report", job.report, job.common.mesh);
   return cad_writer();
 }
 
-CadFile cad_file_of(const StepJob& job, CadFileEntry* entry, const BoundaryModel& model, Progress& progress) {
+CadFile cad_file_of(const StepJob& job, CadFileEntry* entry, BoundaryModel& model, Progress& progress) {
+  model.unit = job.unit == "m" ? LengthUnit::m : job.unit == "inch" ? LengthUnit::inch : LengthUnit::mm;
   progress.step("making a shape");
   CadFile file;
   entry(model, std::filesystem::path(job.output).stem().string(), all_formats().writes(job.output, contents::step),
         file);
   return file;
+}
+
+void tell_unit(const StepJob& job) {
+  if (!all_formats().writes(job.output, contents::step)) return;
+  fmt::print("  lengths are in {}\n", job.unit.empty() ? "mm; --unit names another unit" : job.unit);
 }
 
 void write_step(const StepJob& job, const CadFile& file, const nlohmann::ordered_json& report, Progress& progress) {

@@ -11,6 +11,7 @@ namespace sublimit::cli {
 struct StepJob {
   Common common;
   std::string tolerance, join, output, report;
+  std::string unit;  ///< empty: mm
   bool no_packing = false;
 };
 
@@ -18,11 +19,14 @@ struct StepJob {
 /// @return  function that makes files
 CadFileEntry* prepare_step(const StepJob& job);
 
-/// Returns the bytes of the CAD file of a model. The product in it has the name of the file.
-CadFile cad_file_of(const StepJob& job, CadFileEntry* entry, const BoundaryModel& model, Progress& progress);
+/// Gives a model its unit and returns the bytes of its CAD file. The product in it has the name of the file.
+CadFile cad_file_of(const StepJob& job, CadFileEntry* entry, BoundaryModel& model, Progress& progress);
 
 /// Writes the CAD file, and the report if the job has a path for it.
 void write_step(const StepJob& job, const CadFile& file, const nlohmann::ordered_json& report, Progress& progress);
+
+/// Prints the unit of a STEP file.
+void tell_unit(const StepJob& job);
 
 /// Runs `sublimit step` for free-form surfaces, recipes, and triangles with normals.
 /// @return  the exit status

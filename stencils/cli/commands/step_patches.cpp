@@ -128,7 +128,7 @@ int step_patches(const StepJob& job, const Source& source) {
   PatchModelOptions options;
   if (const double diagonal = diagonal_of(patches); !job.tolerance.empty() && diagonal > 0)
     options.same = distance_option("--tolerance", job.tolerance, diagonal) / diagonal;
-  const PatchModel model = patch_model(patches, options);
+  PatchModel model = patch_model(patches, options);
   const CadFile file = cad_file_of(job, entry, model.boundary, progress);
   write_step(job, file, report_of(job, model, file, patches.size()), progress);
   const int status = file.is_valid ? 0 : 1;
@@ -139,6 +139,7 @@ int step_patches(const StepJob& job, const Source& source) {
       "  {} edges shared by two faces, {} seams, {} sides that are a point, {} sides open; gap {:.3g} and angle "
       "{:.3g} degrees at most\n",
       model.shared, model.seams, model.points, model.open, model.gap, model.angle * 180 / std::numbers::pi);
+  tell_unit(job);
   const std::int64_t apart = model.partial + model.reparametrised + model.non_manifold + model.unsuitable;
   if (apart > 0)
     fmt::print(

@@ -142,8 +142,8 @@ double chord_of(const TessellateOptions& options, const Points& control) {
 
 /// Writes the triangles, and their places if these are asked for.
 /// @param surface  what they are near
-void write_triangles(const TessellateOptions& options, const Tessellation& made, Mesh out, const char* surface,
-                     Progress& progress) {
+void write_triangles(const TessellateOptions& options, const Tessellation& made, Mesh out, const Mesh& control,
+                     const char* surface, Progress& progress) {
   progress.step("writing " + options.output);
   std::vector<Place> places = made.places;  // in the order of the file's vertices
   if (!all_formats().holds(options.output, MeshField::corner_normals) &&
@@ -159,6 +159,7 @@ void write_triangles(const TessellateOptions& options, const Tessellation& made,
     write_mesh(options.output, out, progress.bytes_written());
   if (!options.places.empty()) write_places(options.places, places);
   progress.step("");
+  tell_left_out(options.common, options.output, out, control);
   if (!options.common.quiet) print_summary(options, made, surface);
 }
 
@@ -179,7 +180,7 @@ int tessellate_patches(const TessellateOptions& options, TessellationOptions wan
     if (wanted.normals)
       add_normals(out, made, std::move(made.normals), !all_formats().holds(options.output, MeshField::corner_normals));
   });
-  write_triangles(options, made, std::move(out), "patches", progress);
+  write_triangles(options, made, std::move(out), {}, "patches", progress);
   return 0;
 }
 
@@ -205,12 +206,13 @@ int run(const TessellateOptions& options) {
     made = by_rates ? tessellate_by_rates(*surface, control, wanted.rates, wanted.max_triangles)
                     : tessellate(*surface, control, wanted);
     out = options.face_ids ? tessellation_mesh(made, surface->addresses()) : tessellation_mesh(made);
+    carry_attributes(*loaded.scheme, loaded.mesh, *surface, made, out);
     add_texture(options, loaded, *surface, made, out);
     if (wanted.normals && by_rates) made.normals = surface->evaluate(control, corner_places(made), 1).normal;
     if (wanted.normals)
       add_normals(out, made, std::move(made.normals), !all_formats().holds(options.output, MeshField::corner_normals));
   });
-  write_triangles(options, made, std::move(out), "limit", progress);
+  write_triangles(options, made, std::move(out), loaded.mesh, "limit", progress);
   return 0;
 }
 

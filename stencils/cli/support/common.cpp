@@ -12,9 +12,11 @@
 #include "sublimit/base/detail/followed_links.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/io/read_mesh.h"
+#include "sublimit/io/write_mesh.h"
 #include "sublimit/source/limit_status.h"
 #include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/rule_of_word.h"
@@ -26,7 +28,7 @@ namespace {
 
 void list(const std::vector<std::string>& messages, const char* kind, size_t most) {
   for (size_t i = 0; i < std::min(messages.size(), most); ++i)
-    fmt::print(stderr, "sublimit: {}: {}\n", kind, messages[i]);
+    fmt::print(stderr, "sublimit: {}: {}\n", kind, in_words_of_the_program(messages[i]));
   if (messages.size() > most) fmt::print(stderr, "sublimit: {}: and {} more\n", kind, messages.size() - most);
 }
 
@@ -53,14 +55,66 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
                     &common.face_varying, common.options, common.triangulate, common.no_creases},
                    ".obj (with tags), .ply or .off, or without -s free-form shapes (.obj) or recipes (.json)",
                    scheme_required);
+  command
+      .add_option("--attributes", common.attributes,
+                  "Colours and other values at vertices (default: smooth, refined as positions are); drop leaves out "
+                  "names and values of faces, too")
+      ->check(one_of(attributes_words));
+  command.add_flag("--orient", common.orient, "First turn faces so that winding is consistent, and tell which");
+  command
+      .add_option("--crease-angle", common.crease_angle,
+                  "First make edges sharp where the faces beside them bend by more degrees than this")
+      ->check(CLI::Range(0.0, 180.0));
+  command.add_flag("--crease-smoothing-groups", common.crease_smoothing_groups,
+                   "First make edges between smoothing groups (s of an .obj) sharp");
+  command.add_option("--sidecar", common.sidecar,
+                     "Tags as JSON (default: MESH.json, if it has a key of tags); none: only those of the file");
   add_run(command, common);
   command.add_flag("--strict", common.strict, "Reject meshes that are accepted with a warning, naming each place");
 }
 
+void write_output(const Common& common, const std::string& path, const Mesh& out, const Mesh& control,
+                  Progress& progress) {
+  write_mesh(path, out, progress.bytes_written());
+  progress.step("");
+  tell_left_out(common, path, out, control);
+}
+
+void tell_left_out(const Common& common, const std::string& path, const Mesh& out, const Mesh& control) {
+  using enum MeshField;
+  const FileFormat* const format = all_formats().find(path);
+  std::vector<MeshField> fields = left_out(*format, out);
+  std::erase_if(fields, [](MeshField field) { return field == rules || field == comments; });  // which nobody gave
+  if (out.face_varying.empty() && out.texture.rows() == 0 && !control.face_varying.empty() &&
+      !all_formats().holds(path, face_varying))
+    fields.push_back(face_varying);
+  if (common.quiet || fields.empty()) return;
+  std::vector<std::string> names, keepers = all_formats().holders(fields.front());
+  for (const MeshField field : fields) {
+    names.emplace_back(name_of(field));
+    std::erase_if(keepers, [&](const std::string& extension) { return !all_formats().holds("x" + extension, field); });
+  }
+  const std::string advice =
+      keepers.empty() ? "" : fmt::format("; written as {} the mesh keeps them", listed(keepers, "or"));
+  fmt::print(stderr, "sublimit: note: {}: {} has no place for {}{}\n", path, format->name, listed(names, "and"),
+             advice);
+}
+
+MeshRequest request_of(const Common& common) {
+  MeshRequest request;
+  request.scheme = common.scheme;
+  request.options = given_options(common);
+  request.boundary = common.boundary, request.creasing = common.creasing, request.triangles = common.triangles;
+  request.face_varying = common.face_varying, request.attributes = common.attributes;
+  request.orient = common.orient, request.crease_angle = common.crease_angle;
+  request.crease_smoothing_groups = common.crease_smoothing_groups;
+  request.triangulate = common.triangulate, request.no_creases = common.no_creases, request.strict = common.strict;
+  return request;
+}
+
 Loaded load(const Common& common, Progress& progress) {
   limit_threads(common);
-  MeshRequest request{common.scheme,       given_options(common), common.boundary,   common.creasing, common.triangles,
-                      common.face_varying, common.triangulate,    common.no_creases, common.strict};
+  const MeshRequest request = request_of(common);
   scheme_job(request);  // a misspelt name is told before a large file is read
   progress.step("reading " + common.mesh);
   Mesh mesh;
@@ -70,7 +124,10 @@ Loaded load(const Common& common, Progress& progress) {
     if (error.code() != ErrorCode::io_error) refuse_polygon(common);
     throw;
   }
-  if (const auto sidecar = find_sidecar(common.mesh)) apply_sidecar(mesh, *sidecar);
+  if (!common.sidecar.empty() && common.sidecar != "none")
+    apply_sidecar(mesh, common.sidecar);
+  else if (const auto sidecar = common.sidecar.empty() ? find_sidecar(common.mesh) : std::nullopt)
+    apply_sidecar(mesh, *sidecar);
   Loaded loaded = mesh_job(request, std::move(mesh), common.mesh);
   if (common.quiet) return loaded;
   std::vector<std::string> found = faults(loaded.mesh);
@@ -78,6 +135,7 @@ Loaded load(const Common& common, Progress& progress) {
   list(loaded.mesh.warnings, "warning", 5);
   for (std::string& fault : found) fault = common.mesh + ": " + fault;
   list(found, "warning", 5);
+  for (const std::string& note : loaded.notes) fmt::print(stderr, "sublimit: note: {}: {}\n", common.mesh, note);
   return loaded;
 }
 

@@ -25,14 +25,25 @@ namespace sublimit::cli {
 struct Common {
   std::string mesh, scheme;
   std::string boundary, creasing, triangles, face_varying;  ///< empty: the file's tags
+  std::string attributes;                                   ///< empty: smooth
   std::vector<std::string> options;                         ///< name=value
   int threads = 0;                                          ///< 0: all
   bool quiet = false, strict = false;
-  bool triangulate = false, no_creases = false;
-  bool closed = false;  ///< curves of a CSV are closed
+  bool triangulate = false, no_creases = false, orient = false, crease_smoothing_groups = false;
+  std::optional<double> crease_angle;  ///< degrees
+  std::string sidecar;                 ///< a path; empty: MESH.json if it is one; none: no sidecar
+  bool closed = false;                 ///< curves of a CSV are closed
 };
 
 using Loaded = MeshJob;
+class Progress;
+
+/// Writes a mesh that was made of another one and tells what the format has no place for.
+void write_output(const Common& common, const std::string& path, const Mesh& out, const Mesh& control,
+                  Progress& progress);
+/// Tells what the format of a path has no place for.
+/// @param control  the mesh that `out` was made of: it may have texture coordinates that `out` has not
+void tell_left_out(const Common& common, const std::string& path, const Mesh& out, const Mesh& control);
 
 /// Progress: a line on stderr while a step takes longer than a second, if stderr is a terminal.
 class Progress {
@@ -65,6 +76,8 @@ class Progress {
 void add_run(CLI::App& command, Common& common);
 void add_mesh(CLI::App& command, Common& common, bool scheme_required);
 
+/// Returns the request that the options make.
+MeshRequest request_of(const Common& common);
 /// Returns the scheme's options that the command line gives, by name.
 SchemeOptions given_options(const Common& common);
 

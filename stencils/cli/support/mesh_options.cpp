@@ -13,22 +13,20 @@
 #include "sublimit/base/error.h"
 
 namespace sublimit::cli {
-namespace {
 
-/// The words as CLI11's set of choices.
 CLI::IsMember one_of(std::span<const char* const> words) {
   return CLI::IsMember(std::vector<std::string>(words.begin(), words.end()));
 }
-
-}  // namespace
 
 void add_mesh_options(CLI::App& command, const MeshOptions& options, const std::string& kinds, bool scheme_required) {
   command.add_option("MESH", options.mesh, "Control mesh: " + kinds + "; MESH.json beside it overrides tags")
       ->required();
   auto* scheme = command.add_option("-s,--scheme", options.scheme, "Scheme (see `sublimit schemes`)");
   if (scheme_required) scheme->required();
-  command.add_option("--boundary", options.boundary, "Boundary rule (default: the file's tag, else edge-and-corner)")
-      ->check(one_of(boundary_words));
+  command
+      .add_option("--boundary", options.boundary,
+                  "Boundary rule (default: the file's tag, else edge-and-corner); fixed: border vertices stay")
+      ->check(one_of(boundary_and_fixed_words));
   command.add_option("--creasing", options.creasing, "How sharpness decays (default: the file's tag, else uniform)")
       ->check(one_of(creasing_words));
   command
@@ -70,7 +68,9 @@ void limit_threads(int count) {
 std::string in_words_of_the_program(std::string message) {
   constexpr std::pair<std::string_view, std::string_view> options[] = {{"triangulate the mesh", "--triangulate"},
                                                                        {"remove the tag", "--no-creases"},
-                                                                       {"not a clean manifold", "--strict"}};
+                                                                       {"turn one of them", "--orient"},
+                                                                       {"not a clean manifold", "--strict"},
+                                                                       {"refused, since it has warnings", "--strict"}};
   for (const auto& [what, option] : options)
     if (const size_t at = message.find(what); at != std::string::npos)
       message.insert(at + what.size(), fmt::format(" ({})", option));

@@ -3,6 +3,7 @@
 // What `sublimit` and `sublimit-mpi` have in common: options of a mesh and its scheme, threads, the words of messages.
 #include <CLI/CLI.hpp>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct MeshOptions {
 /// Adds the options to a subcommand.
 /// @param kinds  kinds of files of MESH, for the help
 void add_mesh_options(CLI::App& command, const MeshOptions& options, const std::string& kinds, bool scheme_required);
+
+/// Returns words as a check of an option.
+CLI::IsMember one_of(std::span<const char* const> words);
 
 /// Returns options of a scheme, by name.
 /// @param texts  name=value

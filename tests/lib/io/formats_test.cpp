@@ -58,6 +58,29 @@ struct Field {
   std::function<void(Mesh&)> add;
   std::function<bool(const Mesh&, const Mesh&)> is_same;
 };
+bool same(const std::vector<Mesh::Values>& a, const std::vector<Mesh::Values>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Mesh::Values& x, const Mesh::Values& y) {
+    return x.name == y.name && x.values == y.values && x.type == y.type;
+  });
+}
+/// Numbers of type float.
+std::vector<Mesh::Values> colour(Index count) {
+  std::vector<Mesh::Values> values;
+  for (const char* const name : {"red", "green", "blue"}) {
+    values.push_back({name, {}, ValueType::float32});
+    for (Index i = 0; i < count; ++i) values.back().values.push_back(double(i + name[0] % 8) / 16);
+  }
+  return values;
+}
+Field names(MeshField field, Mesh::FaceNames Mesh::*kind) {
+  return {field,
+          [=](Mesh& m) {
+            m.*kind = {.names = {"top", "left side"}, .of_face = {0, 0, -1, 1, 1, 0}};
+          },
+          [=](const Mesh& a, const Mesh& b) {
+            return (a.*kind).names == (b.*kind).names && (a.*kind).of_face == (b.*kind).of_face;
+          }};
+}
 const std::vector<Field>& fields() {
   using enum MeshField;
   static const std::vector<Field> all{
@@ -105,13 +128,10 @@ const std::vector<Field>& fields() {
                 same(a.face_varying[0].values, b.face_varying[0].values) &&
                 a.face_varying[0].indices == b.face_varying[0].indices;
        }},
-      {face_names,
-       [](Mesh& m) {
-         m.face_names = {.names = {"top", "left side"}, .of_face = {0, 0, -1, 1, 1, 0}};
-       },
-       [](const Mesh& a, const Mesh& b) {
-         return a.face_names.names == b.face_names.names && a.face_names.of_face == b.face_names.of_face;
-       }},
+      names(groups, &Mesh::groups),
+      names(objects, &Mesh::objects),
+      names(materials, &Mesh::materials),
+      names(smoothing_groups, &Mesh::smoothing_groups),
       {vertex_normals, [](Mesh& m) { m.normals = Points::Random(m.num_vertices(), 3); },
        [](const Mesh& a, const Mesh& b) { return a.face_normals.empty() && same(a.normals, b.normals); }},
       {corner_normals,
@@ -126,11 +146,18 @@ const std::vector<Field>& fields() {
        [](const Mesh& a, const Mesh& b) { return a.face_ids == b.face_ids; }},
       {vertex_values,
        [](Mesh& m) {
-         m.vertex_values = {{.name = "heat", .values = {1, 2, 3, 4, 5, 6, 7, 8.5}, .whole = false}};
+         m.vertex_values = {{.name = "heat", .values = {1, 2, 3, 4, 5, 6, 7, 8.5}}};
        },
-       [](const Mesh& a, const Mesh& b) {
-         return a.vertex_values.size() == 1 && a.vertex_values[0].values == b.vertex_values[0].values;
-       }},
+       [](const Mesh& a, const Mesh& b) { return same(a.vertex_values, b.vertex_values); }},
+      {vertex_colours, [](Mesh& m) { m.vertex_values = colour(m.num_vertices()); },
+       [](const Mesh& a, const Mesh& b) { return same(a.vertex_values, b.vertex_values); }},
+      {face_values,
+       [](Mesh& m) {
+         m.face_values = {{.name = "part", .values = {1, 2, 3, 4, 5, 6}, .type = ValueType::int16}};
+       },
+       [](const Mesh& a, const Mesh& b) { return same(a.face_values, b.face_values); }},
+      {face_colours, [](Mesh& m) { m.face_values = colour(m.num_faces()); },
+       [](const Mesh& a, const Mesh& b) { return same(a.face_values, b.face_values); }},
       {comments, [](Mesh& m) { m.comments = {"made by hand"}; },
        [](const Mesh& a, const Mesh& b) { return a.comments == b.comments; }},
   };
@@ -295,7 +322,7 @@ TEST(Formats, NormalsAndValuesOfVerticesAreRead) {
       ++num_normals;
     }
     if (values) {
-      mesh.vertex_values = {{"heat", {1, 2, 3, 4, 5, 6, 7, 8.5}, false}};
+      mesh.vertex_values = {{"heat", {1, 2, 3, 4, 5, 6, 7, 8.5}}};
       write_mesh(path, mesh);
       const Mesh read = read_ply(path, std::vector<std::string>{"heat"});
       ASSERT_EQ(read.vertex_values.size(), 1u);

@@ -84,8 +84,8 @@ TEST(Obj, StatementsThatAreNoMeshAreSkippedInSilence) {
 std::vector<std::string> names_of_faces(const std::string& faces) {
   const Mesh mesh = parse_obj(square + faces, "a.obj");
   std::vector<std::string> names;
-  for (const Index name : mesh.face_names.of_face)
-    names.push_back(name < 0 ? std::string() : mesh.face_names.names[size_t(name)]);
+  for (const Index name : mesh.face_names().of_face)
+    names.push_back(name < 0 ? std::string() : mesh.face_names().names[size_t(name)]);
   return names;
 }
 
@@ -103,8 +103,8 @@ TEST(Obj, GroupsNameFacesAndObjectsThoseWithoutGroup) {
 
 TEST(Obj, NamesOfFacesAreThereOnce) {
   const Mesh mesh = parse_obj("g a\n" + square + "o b\nf 1 2 3\ng\nf 1 2 3\ng a\nf 1 2 3\n", "a.obj");
-  EXPECT_EQ(mesh.face_names.names, (std::vector<std::string>{"a", "b"}));
-  EXPECT_EQ(mesh.face_names.of_face, (Ids{0, 0, 1, 0}));
+  EXPECT_EQ(mesh.face_names().names, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(mesh.face_names().of_face, (Ids{0, 0, 1, 0}));
 }
 
 TEST(Obj, UnknownKeywordsAreWarnedAboutOnceEach) {

@@ -31,6 +31,10 @@ TEST(Off, HeadersComeInManyForms) {
            "OFF 4 1 4\n" + points + "4 0 1 2 3",
            "OFF\n4 1\n" + points + "4 0 1 2 3",
            "# made by hand\n\nOFF # yes\n# counts\n4 1 4\n\n" + points + "\n# face\n4 0 1 2 3 # square\n\n",
+           "OFF4 1 4\n" + points + "4 0 1 2 3",
+           "OFF4\n1\n4\n" + points + "4 0 1 2 3",
+           "OFF\n4 1\n4\n0\n0 0 1\n0 0 # two vertices\n1 1 0 0 1 0\n4 0 # corners\n1\n2 3",
+           "OFF 4 1 4 0 0 0 1 0 0 1 1 0 0 1 0 4 0 1 2 3",
            "OFF\r\n4 1 4\r\n0 0 0\r\n1 0 0\r\n1 1 0\r\n0 1 0\r\n4 0 1 2 3\r\n",
        }) {
     const Mesh mesh = parse_off(text, "a.off");
@@ -40,14 +44,151 @@ TEST(Off, HeadersComeInManyForms) {
   }
 }
 
-TEST(Off, ColoursNormalsAndTextureCoordinatesAreDropped) {
-  for (const char* const keyword : {"COFF", "NOFF", "CNOFF", "STOFF", "STCNOFF"}) {
-    const Mesh mesh = parse_off(
-        std::string(keyword) + "\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 255 0 0 255\n0 1 0 .5 .5\n" + "3 0 1 2 0.1 0.2 0.3\n",
-        "a.off");
+// A triangle whose vertices have what a keyword announces, as a line each or as lines of their own.
+std::string triangle(const std::string& keyword, const std::vector<std::string>& behind) {
+  const std::string at[] = {"0 0 0", "1 0 0", "0 1 0"};
+  std::string text = keyword + "\n3 1 0\n";
+  for (const std::string& point : at) {
+    text += point;
+    for (const std::string& part : behind) text += part;
+    text += "\n";
+  }
+  return text + "3 0 1 2\n";
+}
+
+void expect_channel(const Mesh::Values& channel, const std::string& name, const std::vector<double>& values,
+                    ValueType type) {
+  EXPECT_EQ(channel.name, name);
+  EXPECT_EQ(channel.values, values);
+  EXPECT_EQ(channel.type, type);
+}
+
+TEST(Off, ColoursOfVerticesAreKept) {
+  for (const std::string text : {
+           "COFF\n3 1 0\n0 0 0 255 0 1 9\n1 0 0 128 2 1 8\n0 1 0 0 3 1 7\n3 0 1 2\n",
+           "COFF\n3 1 0\n0 0 0\n255 0 1 9\n1 0 0\n128 2 1 8\n0 1 0 0\n3 1 7\n3 0 1 2\n",
+           "COFF3 1 0 0 0 0 255 0 1 9 1 0 0 128 2 1 8 0 1 0 0 3 1 7\n3 0 1 2\n",
+       }) {
+    SCOPED_TRACE(text);
+    const Mesh mesh = parse_off(text, "a.off");
     EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(1, 0, 0));
     EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2}));
+    EXPECT_TRUE(mesh.warnings.empty());
+    ASSERT_EQ(mesh.vertex_values.size(), 4u);
+    expect_channel(mesh.vertex_values[0], "red", {255, 128, 0}, ValueType::uint8);
+    expect_channel(mesh.vertex_values[1], "green", {0, 2, 3}, ValueType::uint8);
+    expect_channel(mesh.vertex_values[2], "blue", {1, 1, 1}, ValueType::uint8);
+    expect_channel(mesh.vertex_values[3], "alpha", {9, 8, 7}, ValueType::uint8);
+    EXPECT_TRUE(mesh.face_values.empty());
   }
+}
+
+TEST(Off, ColoursOfZeroToOneAreReals) {
+  for (const std::string& text : {triangle("COFF", {" 0.5 0 1"}), triangle("COFF", {"\n0.5 0 1"})}) {
+    const Mesh mesh = parse_off(text, "a.off");
+    ASSERT_EQ(mesh.vertex_values.size(), 3u) << text;
+    expect_channel(mesh.vertex_values[0], "red", {0.5, 0.5, 0.5}, ValueType::float32);
+    expect_channel(mesh.vertex_values[2], "blue", {1, 1, 1}, ValueType::float32);
+    EXPECT_TRUE(mesh.warnings.empty());
+  }
+}
+
+TEST(Off, NormalsComeBeforeColoursAndTheseBeforeTextureCoordinates) {
+  const std::string normal = " 0 0 -1", colour = " 10 20 30", alpha = " 40", texture = " 0.5 7";
+  for (const std::string end : {"", "\n"}) {
+    const std::string n = end + normal, c = end + colour, a = end + colour + alpha, t = end + texture;
+    for (const auto& [text, channels] : std::vector<std::pair<std::string, std::size_t>>{
+             {triangle("NOFF", {n}), 0},
+             {triangle("STOFF", {t}), 0},
+             {triangle("STNOFF", {n, t}), 0},
+             {triangle("CNOFF", {n, c}), 3},
+             {triangle("CNOFF", {n, a}), 4},
+             {triangle("STCOFF", {c, t}), 3},
+             {triangle("STCOFF", {a, t}), 4},
+             {triangle("STCNOFF", {n, c, t}), 3},
+             {triangle("STCNOFF", {n, a, t}), 4},
+         }) {
+      SCOPED_TRACE(text);
+      const Mesh mesh = parse_off(text, "a.off");
+      EXPECT_EQ(mesh.positions.row(2), Eigen::RowVector3d(0, 1, 0));
+      EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2}));
+      ASSERT_EQ(mesh.vertex_values.size(), channels);
+      for (std::size_t k = 0; k < channels; ++k)
+        EXPECT_EQ(mesh.vertex_values[k].values, std::vector<double>(3, 10.0 * double(k + 1)));
+      EXPECT_TRUE(mesh.warnings.empty());
+    }
+  }
+}
+
+TEST(Off, NumbersThatTheKeywordDoesNotAnnounceAreIgnored) {
+  const Mesh mesh = parse_off(triangle("OFF", {" 255 0 0 255"}), "a.off");
+  EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(1, 0, 0));
+  EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2}));
+  ASSERT_EQ(mesh.warnings.size(), 1u);
+  EXPECT_EQ(mesh.warnings[0], "a.off:3: vertices of 7 numbers; those that the keyword does not announce are ignored");
+}
+
+TEST(Off, ColoursOfFacesAreKeptIfAllFacesHaveOne) {
+  const std::string start = "OFF\n4 2 0\n" + points;
+  const Mesh all = parse_off(start + "3 0 1\n2 255 0 9\n3 0 2 3 1 2 3 # red\n", "a.off");
+  EXPECT_EQ(all.face_vertices, (Ids{0, 1, 2, 0, 2, 3}));
+  ASSERT_EQ(all.face_values.size(), 3u);
+  expect_channel(all.face_values[0], "red", {255, 1}, ValueType::uint8);
+  expect_channel(all.face_values[2], "blue", {9, 3}, ValueType::uint8);
+  EXPECT_TRUE(all.warnings.empty());
+
+  // As Geomview has them: with a decimal point 0 to 1, without one 0 to 255.
+  const Mesh mixed = parse_off(start + "3 0 1 2 0.5 0.0 1.0 1.0\n3 0 2 3 64 0 255 51\n", "a.off");
+  ASSERT_EQ(mixed.face_values.size(), 4u);
+  expect_channel(mixed.face_values[0], "red", {127.5, 64}, ValueType::uint8);
+  expect_channel(mixed.face_values[3], "alpha", {255, 51}, ValueType::uint8);
+
+  const auto expect_warning = [&](const std::string& faces, std::size_t kept, const std::string& warning) {
+    SCOPED_TRACE(faces);
+    const Mesh mesh = parse_off(start + faces, "a.off");
+    EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2, 0, 2, 3}));
+    EXPECT_EQ(mesh.face_values.size(), kept);
+    ASSERT_EQ(mesh.warnings.size(), 1u);
+    EXPECT_EQ(mesh.warnings[0], warning);
+  };
+  expect_warning("3 0 1 2 9 9 9\n3 0 2 3\n", 0,
+                 "a.off:8: no colour here, which other faces have; the colours of faces are left out, all should have "
+                 "one");
+  expect_warning("3 0 1 2 9 9 9\n3 0 2 3 9 9 9 9\n", 3,
+                 "a.off:7: a colour of 3 numbers where other faces have 4; alpha is left out, all should have it");
+  expect_warning("3 0 1 2 9 9 9\n3 0 2 3 9 9 256\n", 0,
+                 "a.off:8: a colour is not within 0 to 1 or 0 to 255; the colours of faces are left out");
+  expect_warning("3 0 1 2 7\n3 0 2 3 8\n", 0,
+                 "a.off:7: the numbers at the end are no colour of 3 or 4 numbers and are left out");
+}
+
+TEST(Off, WritesWhatItReads) {
+  Mesh mesh = parse_off("OFF\n4 2 5\n0.1 0 0\n1 0 0\n1 1 -2e-300\n0 1 0\n3 0 1 2\n4 0 1 2 3\n", "a.off");
+  EXPECT_EQ(format_off(mesh), "OFF\n4 2 0\n0.1 0 0\n1 0 0\n1 1 -2e-300\n0 1 0\n3 0 1 2\n4 0 1 2 3\n");
+  // Refined colours may go beyond their range.
+  mesh.vertex_values = {{"red", {-3, 0.4, 254.6, 300}, ValueType::uint8},
+                        {"heat", {1, 2, 3, 4}},
+                        {"blue", {1, 2, 3, 4}, ValueType::uint8},
+                        {"green", {0, 0, 0, 0}, ValueType::uint8}};
+  mesh.face_values = {{"red", {0.1, 1.5}, ValueType::float32},
+                      {"green", {0, 0.25}, ValueType::float32},
+                      {"blue", {1, 1}, ValueType::float32},
+                      {"alpha", {1, -0.5}, ValueType::float32}};
+  const std::string text = format_off(mesh);
+  EXPECT_EQ(text,
+            "COFF\n4 2 0\n0.1 0 0 0 0 1\n1 0 0 0 0 2\n1 1 -2e-300 255 0 3\n0 1 0 255 0 4\n"
+            "3 0 1 2 0.1 0 1 1\n4 0 1 2 3 1 0.25 1 0\n");
+  const Mesh read = parse_off(text, "b.off");
+  EXPECT_EQ(format_off(read), text);
+  EXPECT_EQ(read.positions, mesh.positions);
+  EXPECT_TRUE(read.warnings.empty());
+  // Colours of bytes that are all 0 or 1 stay nearly black.
+  mesh.face_values.clear();
+  for (Mesh::Values& one : mesh.vertex_values) one.values = {0, 1, 0, 1};
+  const Mesh dark = parse_off(format_off(mesh), "c.off");
+  ASSERT_EQ(dark.vertex_values.size(), 3u);
+  EXPECT_EQ(dark.vertex_values[0].type, ValueType::float32);
+  EXPECT_EQ(float(dark.vertex_values[0].values[1]), float(1 / 255.0));
 }
 
 TEST(Off, LinesBehindTheLastFaceAreWarnedAbout) {
@@ -64,6 +205,11 @@ TEST(Off, SaysWhatCannotBeUnderstood) {
   expect("", {"a.off: the file is empty"});
   expect("# only\n", {"a.off:", "the file starts with ''", "starts with 'OFF'"});
   expect("ply\n", {"a.off:1: the file starts with 'ply'"});
+  expect("OFFSET\n", {"a.off:1: the file starts with 'OFFSET'"});
+  expect("OFF4x\n", {"a.off:1: the file starts with 'OFF4x'"});
+  expect("OFF4000000000 1 4\n" + points, {"a.off:1: 4000000000 vertices cannot be in the"});
+  expect("COFF\n3 1 0\n0 0 0 9 9 red\n1 0 0 9 9 9\n0 1 0 9 9 9\n3 0 1 2\n", {"a.off:3: number at the end 'red'"});
+  expect("NOFF\n3 1 0\n0 0 0 0 0 up\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n", {"a.off:3: number of a normal 'up'"});
   expect("4OFF\n4 1 4\n", {"a.off:1: '4OFF' has points of other than 3 dimensions"});
   expect(std::string("OFF\n\0", 5), {"a.off:2: byte 4 is zero", "not a text OFF file"});
   expect(std::string("OFF BINARY\n\0\0\0\1", 15), {"a.off:1: binary OFF; only text can be read"});
@@ -73,11 +219,11 @@ TEST(Off, SaysWhatCannotBeUnderstood) {
   expect("OFF\n-4 1 4\n" + points, {"a.off:2: -4 vertices cannot be in the"});
   expect("OFF\n4000000000 1 4\n" + points, {"a.off:2: 4000000000 vertices cannot be in the 29 bytes that follow"});
   expect("OFF\n4 2000000000 4\n" + points, {"a.off:2: 2000000000 faces cannot be in"});
-  expect("OFF\n4 1 4\n0 0 0\n1 0\n\n\n\n\n\n\n\n\n\n\n\n\n\n", {"a.off:4: the line ends where coordinate z should be"});
+  expect("OFF\n4 1 4\n0 0 0\n1 0\n\n\n\n\n\n\n\n\n\n\n\n\n\n", {"the file ends at vertex 1 of 4"});
   expect("OFF\n4 1 4\n0 0 0\n1 y 0\n0 1 0\n0 0 1\n", {"a.off:4: coordinate y 'y' is not a number"});
   expect("OFF\n3 1 4\n0 0 0\n1 0 0\n      \n", {"a.off:", "the file ends at vertex 2 of 3"});
   expect("OFF\n4 1 4\n" + points + "       \n", {"the file ends at face 0 of 1"});
-  expect("OFF\n4 1 4\n" + points + "4 0 1 2\n", {"a.off:7: the line ends where index should be"});
+  expect("OFF\n4 1 4\n" + points + "4 0 1 2\n", {"a.off:8: the file ends at face 0 of 1"});
   expect("OFF\n4 1 4\n" + points + "3 0 1 2 red\n", {"a.off:7: number at the end 'red'"});
 }
 
@@ -98,6 +244,8 @@ TEST(Off, ReadsFiles) {
   const TemporaryDirectory directory;
   EXPECT_EQ(read_off(directory.write("a.off", square)).num_faces(), 1);
   expect_error<IoError>([&] { read_off(directory / "no.off"); }, {"no.off: cannot read"});
+  write_off(directory / "b.off", parse_off(square, "a.off"));
+  EXPECT_EQ(read_off(directory / "b.off").positions, parse_off(square, "a.off").positions);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class Bytes {
 // Further numbers of vertices, which other readers skip.
 TEST(Ply, KeepsFurtherValuesOfVertices) {
   Mesh mesh = parse_ply(square, "square.ply");
-  mesh.vertex_values = {{"tag", {3, -1, 0, 2147483647}, true}, {"heat", {0.1, -0.0, 1e300, 0.5}}};
+  mesh.vertex_values = {{"tag", {3, -1, 0, 2147483647}, ValueType::int32}, {"heat", {0.1, -0.0, 1e300, 0.5}}};
   const std::string bytes = format_ply(mesh);
   EXPECT_NE(bytes.find("property int tag\nproperty double heat\n"), std::string::npos);
   const std::vector<std::string> names{"heat", "none", "tag", "vertex_indices"};
@@ -63,13 +63,16 @@ TEST(Ply, KeepsFurtherValuesOfVertices) {
   for (size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(read.vertex_values[i].name, mesh.vertex_values[1 - i].name);
     EXPECT_EQ(read.vertex_values[i].values, mesh.vertex_values[1 - i].values);
-    EXPECT_EQ(read.vertex_values[i].whole, mesh.vertex_values[1 - i].whole);
+    EXPECT_EQ(read.vertex_values[i].type, mesh.vertex_values[1 - i].type);
   }
   EXPECT_EQ(parse_ply(bytes, "values.ply").positions, mesh.positions);
-  mesh.vertex_values[0].values[0] = 0.5;
-  expect_error<InvalidParameter>([&] { format_ply(mesh); }, {"whole number"});
+  mesh.vertex_values[0].values = {2.5, 3.5, -1e300, 1e300};
+  EXPECT_EQ(parse_ply(format_ply(mesh), "values.ply", std::vector<std::string>{"tag"}).vertex_values[0].values,
+            (std::vector<double>{2, 4, -2147483648.0, 2147483647.0}));
+  mesh.vertex_values[0].values[1] = std::numeric_limits<double>::quiet_NaN();
+  expect_error<InvalidMesh>([&] { format_ply(mesh); }, {"value 'tag' number 1 is nan"});
   mesh.vertex_values[0].values.pop_back();
-  expect_error<InvalidParameter>([&] { format_ply(mesh); }, {"for each vertex"});
+  expect_error<InvalidMesh>([&] { format_ply(mesh); }, {"value 'tag' has 3 numbers for 4 vertices"});
 }
 
 TEST(Ply, ReadsText) {
@@ -87,7 +90,9 @@ TEST(Ply, ReadsText) {
   EXPECT_EQ(mesh.positions.row(0), Eigen::RowVector3d(0.1, -2000, 3));
   EXPECT_EQ(mesh.face_sizes, (Ids{3, 4}));
   EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2, 0, 1, 2, 3}));
-  EXPECT_TRUE(mesh.warnings.empty());
+  ASSERT_EQ(mesh.warnings.size(), 2u);
+  EXPECT_TRUE(mesh.warnings[0].starts_with("a.ply:5: element 'camera' and list 'other' of vertices left out"));
+  EXPECT_TRUE(mesh.warnings[1].starts_with("a.ply:16: number 'last' of faces is nan at 0 and is left out"));
 }
 
 TEST(Ply, ReadsBinaryOfEitherByteOrderAndAnyTypes) {
@@ -111,7 +116,8 @@ TEST(Ply, ReadsBinaryOfEitherByteOrderAndAnyTypes) {
     EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(127, 1, std::numeric_limits<double>::denorm_min()));
     EXPECT_TRUE(std::signbit(mesh.positions(2, 2)));
     EXPECT_EQ(mesh.face_vertices, (Ids{2, 1, 0}));
-    EXPECT_TRUE(mesh.warnings.empty());
+    ASSERT_EQ(mesh.warnings.size(), 1u);
+    EXPECT_TRUE(mesh.warnings[0].starts_with("a.ply:4: element 'strip' and list 'skipped' of vertices left out"));
   }
 }
 

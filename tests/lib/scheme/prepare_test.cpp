@@ -17,7 +17,7 @@ TEST(Prepare, TriangulatedIsAFanFromTheFirstCorner) {
   mesh.creases = {{3, 4, 2}};
   mesh.corners = {{5, 10}};
   mesh.boundary = Boundary::edge_only;
-  mesh.face_names = {{"a", "b"}, {1, 0}};
+  mesh.groups = {{"a", "b"}, {1, 0}};
   const Mesh cut = triangulated(mesh);
   EXPECT_EQ(cut.face_sizes, (std::vector<Index>{3, 3, 3, 3}));
   EXPECT_EQ(cut.face_vertices, (std::vector<Index>{1, 2, 3, 1, 3, 4, 1, 4, 0, 4, 3, 5}));
@@ -26,8 +26,8 @@ TEST(Prepare, TriangulatedIsAFanFromTheFirstCorner) {
   ASSERT_EQ(cut.creases.size(), 1u);
   EXPECT_EQ(cut.creases[0].sharpness, 2);
   EXPECT_EQ(cut.corners.size(), 1u);
-  EXPECT_EQ(cut.face_names.names, mesh.face_names.names);
-  EXPECT_EQ(cut.face_names.of_face, (std::vector<Index>{1, 1, 1, 0}));
+  EXPECT_EQ(cut.groups.names, mesh.groups.names);
+  EXPECT_EQ(cut.groups.of_face, (std::vector<Index>{1, 1, 1, 0}));
   EXPECT_EQ(cut.boundary, Boundary::edge_only);
 }
 
@@ -82,7 +82,7 @@ TEST(Prepare, TriangulatedRejectsWhatIsNoMesh) {
   mesh.face_vertices.pop_back();
   EXPECT_THROW(triangulated(mesh), InvalidMesh);
   mesh = cube();
-  mesh.face_names = {{"a"}, {0, 0}};
+  mesh.groups = {{"a"}, {0, 0}};
   EXPECT_THROW(triangulated(mesh), InvalidMesh);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "meshes/meshes.h"
@@ -87,6 +88,38 @@ TEST(CliStep, SameInputSameBytes) {
   const std::string first = read_file(one);
   expect_done(sublimit({"step", mesh, "-s", "catmull-clark", "-o", one, "--quiet", "--threads", "1"}));
   EXPECT_EQ(read_file(one), first);
+}
+
+// Numbers are those of the mesh in any unit, which the file names.
+TEST(CliStep, FilesNameTheirUnit) {
+  const TemporaryDirectory directory;
+  const std::string mesh = write(directory, cube()), out = (directory / "o.step").string();
+  const auto points = [&](const std::vector<std::string>& unit, const std::string& says) {
+    std::vector<std::string> words{"step", mesh, "-s", "bilinear", "-o", out};
+    words.insert(words.end(), unit.begin(), unit.end());
+    const Outcome outcome = sublimit(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("lengths are in " + says), std::string::npos) << outcome.out;
+    const std::string file = read_file(out);
+    std::multiset<std::string> points;
+    for (size_t at = 0; (at = file.find("CARTESIAN_POINT('',(", at)) != std::string::npos; ++at)
+      points.insert(file.substr(at, file.find(')', at + 19) - at));
+    return std::pair(points, file);
+  };
+  const auto [plain, in_mm] = points({}, "mm; --unit");
+  EXPECT_GT(plain.size(), 8u);
+  EXPECT_NE(in_mm.find("SI_UNIT(.MILLI.,.METRE.)"), std::string::npos);
+  EXPECT_EQ(points({"--unit", "mm"}, "mm\n").second, in_mm);
+  const auto [metres, in_m] = points({"--unit", "m"}, "m\n");
+  EXPECT_EQ(metres, plain);
+  EXPECT_NE(in_m.find("SI_UNIT($,.METRE.)"), std::string::npos);
+  const auto [inches, in_inches] = points({"--unit", "inch"}, "inch\n");
+  EXPECT_EQ(inches, plain);
+  EXPECT_NE(in_inches.find("CONVERSION_BASED_UNIT('INCH'"), std::string::npos);
+  EXPECT_EQ(points({}, "mm").second, in_mm);  // no unit is left behind
+  expect_failure(sublimit({"step", mesh, "-s", "bilinear", "--unit", "ell", "-o", out}), 2, {"--unit"});
+  expect_failure(sublimit({"step", mesh, "-s", "bilinear", "--unit", "m", "-o", (directory / "o.brep").string()}), 2,
+                 {"only STEP files have a unit"});
 }
 
 TEST(CliStep, LeavesNoFileAfterErrors) {

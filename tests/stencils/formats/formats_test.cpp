@@ -34,7 +34,8 @@ class Samples {
     write_mesh(path("mesh.obj"), cube());
     write_mesh(path("octahedron.obj"), octahedron_with_normals());
     write_mesh(path("mesh.ply"), cube());
-    directory_.write("mesh.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    write_mesh(path("mesh.off"), cube());
+    write_mesh(path("mesh.stl"), cube());
     directory_.write("polygon.csv", "x,y,z\n0,0,0\n1,0,0\n1,1,0\n");
     directory_.write("polygon.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n");
     directory_.write("places.csv", "face,u,v\n0,0.5,0.5\n");
@@ -164,7 +165,7 @@ TEST(AllFormats, AreReadAsRowsSay) {
     std::vector<std::string> files;  ///< one for each row that claims the content
   };
   const std::vector<Read> lines{
-      {{{"info", "?", "--quiet"}, {meshes}}, {"mesh.obj", "mesh.ply", "mesh.off"}},
+      {{{"info", "?", "--quiet"}, {meshes}}, {"mesh.obj", "mesh.ply", "mesh.off", "mesh.stl"}},
       {{{"refine", "?", "-s", "chaikin", "-l", "1", "-o", csv, "--quiet"}, {polygons}}, {"polygon.csv", "polygon.obj"}},
       {{{"info", "?", "--quiet"}, {free_form}}, {"shape.obj"}},
       {{{"refine", "?", "-s", "nielson", "-l", "1", "-o", obj, "--quiet"}, {vertex_normals}}, {"octahedron.obj"}},
@@ -209,11 +210,12 @@ TEST(AllFormats, OtherExtensionsAreNotRead) {
       const std::string name = "other" + std::string(extension);
       samples.write(name, text);
       if (!claims(row.reads, {meshes, recipes, polygons}))  // other words for these
-        expect_failure(sublimit({"info", samples.path(name)}), 3,
-                       {"unknown kind of mesh '" + std::string(extension) + "'; .obj, .ply and .off can be read"});
+        expect_failure(
+            sublimit({"info", samples.path(name)}), 3,
+            {"unknown kind of mesh '" + std::string(extension) + "'; .obj, .ply, .off and .stl can be read"});
       if (!claims(row.reads, {meshes, contents::rows, arrays}))
         expect_failure(sublimit({"apply", table, samples.path(name), "-o", out}), 3,
-                       {"points come from .obj, .ply, .off, .csv or .npy files"});
+                       {"points come from .obj, .ply, .off, .stl, .csv or .npy files"});
       if (!claims(row.reads, {vertex_values})) {
         EXPECT_NE(sublimit({"bake", samples.path("mesh.obj"), "-s", "catmull-clark", "--tessellation",
                             samples.path(name), "-o", samples.path("t.safetensors")})

@@ -160,8 +160,6 @@ TEST(Sidecar, SaysWhereItMakesNoSense) {
   expect_crease("[0, 1, 2]", "[3, 2]", "[1, 1]", {"strip.json: creaseLengths[1]: the chains need more"});
   expect_crease("[0, 1, 2]", "[3]", "[1, 2, 3]",
                 {"strip.json: creaseSharpnesses: has 3 values", "1, one for each chain, or 2"});
-  expect_crease("[0, 1, 3]", "[3]", "[1]",
-                {"strip.json: creaseIndices[1]: no face has an edge between vertices 1 and 3"});
   expect_crease("[0, 9]", "[2]", "[1]", {"strip.json: creaseIndices[1]: is 9; it should be a vertex"});
 
   expect(R"({"interpolateBoundary": "edges"})",
@@ -170,6 +168,19 @@ TEST(Sidecar, SaysWhereItMakesNoSense) {
   expect(R"({"triangleSubdivisionRule": "catmark"})", {"triangleSubdivisionRule", "catmullClark, smooth"});
   expect(R"({"creaseMethod": "normal"})", {"creaseMethod", "uniform, chaikin"});
   expect(R"({"faceVaryingLinearInterpolation": []})", {"faceVaryingLinearInterpolation: is an array"});
+}
+
+TEST(Sidecar, CreasesWithoutAnEdgeAreWarnings) {
+  Mesh mesh = strip();
+  apply_sidecar_text(mesh, R"({"creaseIndices": [0, 1, 3], "creaseLengths": [3], "creaseSharpnesses": [1]})",
+                     "strip.json");
+  ASSERT_EQ(mesh.creases.size(), 1u);
+  EXPECT_EQ(mesh.creases[0].head, 1);
+  ASSERT_EQ(mesh.warnings.size(), 1u);
+  EXPECT_EQ(
+      mesh.warnings[0].find("strip.json: creaseIndices[1]: crease ignored: no face has an edge between vertices 1 "
+                            "and 3"),
+      0u);
 }
 
 TEST(Sidecar, LeavesTheMeshAsItWasWhenItFails) {

@@ -81,6 +81,9 @@ std::string step_text(const BoundaryModel& source, const ModelShape& made, const
   Interface_Static::SetIVal("write.surfacecurve.mode", 0);  // readers find curves in parameters again: lines
   Interface_Static::SetCVal("write.step.product.name", step_string(name).c_str());
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
+  const char* const units[] = {"MM", "M", "INCH"};  // of LengthUnit; the same for shape and file, so that numbers stay
+  for (const char* const which : {"xstep.cascade.unit", "write.step.unit"})
+    Interface_Static::SetCVal(which, units[static_cast<int>(source.unit)]);
   if (writer.Transfer(made.shape, STEPControl_AsIs) != IFSelect_RetDone)
     throw Refused{"it could not make a STEP model of the surface"};
   set_names(source, made, writer);

@@ -47,14 +47,20 @@ enum class MeshField {
   corners,
   knot_intervals,
   holes,
-  rules,           ///< boundary, creasing, triangles, face-varying interpolation
-  face_varying,    ///< one channel of 1 to 3 columns
-  face_names,      ///< names of groups
+  rules,         ///< boundary, creasing, triangles, face-varying interpolation
+  face_varying,  ///< one channel of 1 to 3 columns
+  groups,
+  objects,
+  materials,
+  smoothing_groups,
   vertex_normals,  ///< a normal for each vertex
   corner_normals,  ///< a normal for each corner of a face
   texture,         ///< texture coordinates of vertices
   face_ids,
-  vertex_values,
+  vertex_colours,  ///< values red, green and blue at vertices
+  vertex_values,   ///< other ones
+  face_colours,
+  face_values,
   comments,
 };
 

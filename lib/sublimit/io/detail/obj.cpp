@@ -2,30 +2,39 @@
 #include "sublimit/io/detail/obj.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/io/detail/obj_calls.h"
 #include "sublimit/io/detail/obj_indices.h"
 #include "sublimit/io/detail/obj_keywords.h"
 #include "sublimit/io/detail/obj_names.h"
 #include "sublimit/io/detail/obj_tags.h"
 #include "sublimit/io/detail/text_scanner.h"
+#include "sublimit/mesh/detail/attributes.h"
 
 namespace sublimit {
 namespace {
 
 class ObjReader {
  public:
-  explicit ObjReader(std::string_view text, std::string_view name, const ObjCounts& before = {})
+  explicit ObjReader(std::string_view text, std::string_view name, const ObjCounts& before = {},
+                     std::vector<TextScanner::Origin> origins = {})
       : scanner_(text, name, TextScanner::Continuation::backslash, before.lines + 1),
         num_vertices_(before.vertices),
         faces_before_(before.faces) {
     texture_.count = before.texture_coordinates;
+    scanner_.set_origins(std::move(origins));
   }
 
-  Mesh read() {
+  /// @param warnings  that come first
+  Mesh read(std::vector<std::string> warnings = {}) {
+    mesh_.warnings = std::move(warnings);
     read_lines();
     finish();
     return std::move(mesh_);
@@ -50,8 +59,18 @@ class ObjReader {
         read_face();
       } else if (keyword == "t") {
         tags_.read(scanner_, mesh_);
-      } else if (keyword == "g" || keyword == "o") {
-        (keyword == "g" ? group_ : object_) = names_.read(scanner_, mesh_.face_names.names);
+      } else if (keyword == "g") {
+        groups_.read(scanner_, mesh_.groups);
+      } else if (keyword == "o") {
+        objects_.read(scanner_, mesh_.objects);
+      } else if (keyword == "usemtl") {
+        materials_.read(scanner_, mesh_.materials);
+      } else if (keyword == "s") {
+        smoothing_groups_.read(scanner_, mesh_.smoothing_groups);
+      } else if (keyword == "mtllib") {
+        if (std::string file = rest_of_line(scanner_); !file.empty()) mesh_.material_files.push_back(std::move(file));
+      } else if (keyword == "call") {  // of a text alone, or of a part of a file
+        mesh_.warnings.push_back(scanner_.place() + "call left out: the file that it names is not read here");
       } else if (keyword == "vn" || keyword == "vp" || is_attribute_keyword(keyword)) {
         continue;
       } else if (!keyword.empty() && !elements_.count(scanner_, keyword) && !is_free_form_keyword(keyword)) {
@@ -64,8 +83,27 @@ class ObjReader {
     for (const char* const what : {"coordinate x", "coordinate y", "coordinate z"}) {
       coordinates_.push_back(scanner_.finite(scanner_.token(), what));
     }
-    for (std::string_view token; !(token = scanner_.token()).empty();) scanner_.real(token, "number behind a vertex");
+    read_colour();
     ++num_vertices_;
+  }
+
+  // Three or four numbers behind the coordinates are a colour; a single one is a weight, which a mesh has no use for.
+  void read_colour() {
+    std::array<double, 4> colour{0, 0, 0, 1};
+    std::size_t count = 0;
+    for (std::string_view token; !(token = scanner_.token()).empty(); ++count) {
+      const double number = scanner_.real(token, "number behind a vertex");
+      if (count < colour.size()) colour[count] = number;
+    }
+    if (count < 3) {
+      if (colours_.line_without < 0) colours_.line_without = scanner_.line();
+      return;
+    }
+    for (std::size_t i = 0; i < std::min(count, colour.size()); ++i)
+      if (!std::isfinite(colour[i]))
+        throw InvalidMesh(scanner_.place() + "a colour is " + format_number(colour[i]) + "; it should be 0 to 1");
+    colours_.alpha = colours_.alpha || count > 3;
+    colours_.values.insert(colours_.values.end(), colour.begin(), colour.end());
   }
 
   void read_texture_coordinates() {
@@ -89,12 +127,11 @@ class ObjReader {
                         format_number(size) + " corners; it should have at least 3");
     }
     checked_index(std::int64_t(mesh_.face_vertices.size()), scanner_.name(), "corners of faces");
-    const Index name = group_ >= 0 ? group_ : object_;
-    std::vector<Index>& names = mesh_.face_names.of_face;
-    if (name >= 0 || !names.empty()) {
-      names.resize(mesh_.face_sizes.size(), -1);  // those before the first that has one
-      names.push_back(name);
-    }
+    const std::size_t face = mesh_.face_sizes.size();
+    groups_.add_face(face, mesh_.groups);
+    objects_.add_face(face, mesh_.objects);
+    materials_.add_face(face, mesh_.materials);
+    smoothing_groups_.add_face(face, mesh_.smoothing_groups);
     mesh_.face_sizes.push_back(static_cast<Index>(size));
   }
 
@@ -113,11 +150,18 @@ class ObjReader {
       }
       if (index.empty()) continue;
       const std::int64_t number = scanner_.integer(index, "index");
-      if (number == 0) reject_index_zero(scanner_);
+      if (number == 0) warn_of_index_zero(part == 0 ? "texture coordinate" : "normal");
       if (part == 0) value = number;
     }
     if (value != 0 || !texture_.corners.empty()) add_texture_corner(value);
     if (value == 0 && texture_.line_without < 0) texture_.line_without = scanner_.line();
+  }
+
+  // Some exporters write 0 where there is none.
+  void warn_of_index_zero(const char* what) {
+    if (!std::exchange(warned_of_zero_, true))
+      mesh_.warnings.push_back(scanner_.place() + "index 0 of a " + what +
+                               " taken as none; indices of an OBJ file count from 1");
   }
 
   // The texture coordinate of the corner that was read last, 0 for none.
@@ -141,11 +185,27 @@ class ObjReader {
     const Index vertices = checked_index(num_vertices_, name, "vertices");
     indices_.check(scanner_, vertices);
     mesh_.positions = Eigen::Map<const Points>(coordinates_.data(), vertices, 3);
-    tags_.check(scanner_, mesh_);
+    tags_.settle(scanner_, mesh_);
+    finish_colours();
     finish_texture_coordinates();
     if (elements_.has_free_form())
       mesh_.warnings.push_back(scanner_.place(elements_.first_free_form) + "the file also holds " +
                                elements_.free_form() + " (free-form statements), which are no part of the mesh");
+  }
+
+  void finish_colours() {
+    if (colours_.values.empty()) return;
+    if (colours_.line_without >= 0) {
+      mesh_.warnings.push_back(scanner_.place(colours_.line_without) +
+                               "vertices without colour, which others have; colours are dropped");
+      return;
+    }
+    for (std::size_t i = 0; i < (colours_.alpha ? 4u : 3u); ++i) {
+      Mesh::Values& channel = mesh_.vertex_values.emplace_back();
+      channel.name = colour_names[i];
+      channel.type = ValueType::float32;
+      for (std::size_t k = i; k < colours_.values.size(); k += 4) channel.values.push_back(colours_.values[k]);
+    }
   }
 
   void finish_texture_coordinates() {
@@ -176,6 +236,11 @@ class ObjReader {
                                   .indices = std::move(texture_.corners)});
   }
 
+  struct Colours {
+    std::vector<double> values;  // four each
+    bool alpha = false;
+    std::int64_t line_without = -1;
+  };
   struct Forward {
     std::int64_t index, line;
   };
@@ -195,15 +260,21 @@ class ObjReader {
   std::int64_t num_vertices_, faces_before_;
   ObjIndices indices_{"vertices"};
   Texture texture_;
-  ObjNames names_;
-  Index group_ = -1, object_ = -1;
+  Colours colours_;
+  ObjNames groups_, objects_, materials_, smoothing_groups_;
+  bool warned_of_zero_ = false;
   ObjElements elements_;
   UnknownKeywords unknown_;
 };
 
 }  // namespace
 
-Mesh read_obj(const std::filesystem::path& path) { return parse_obj(read_file(path), path.string()); }
+Mesh read_obj(const std::filesystem::path& path) {
+  std::string text = read_file(path);
+  require_text(text, path.string(), "OBJ");
+  CalledText called = with_called_files(std::move(text), path);
+  return ObjReader(called.text, path.string(), {}, std::move(called.origins)).read(std::move(called.warnings));
+}
 
 ObjCounts count_obj(std::string_view part) {
   TextScanner scanner(part, "", TextScanner::Continuation::backslash);

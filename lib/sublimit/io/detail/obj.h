@@ -2,8 +2,8 @@
 #pragma once
 // Wavefront OBJ with subdivision tags, read and written to the same bits.
 //
-// Taken: `v x y z` (what follows, a weight or colours, is dropped), `f` with its vertices as `a`, `a/b`, `a//c` or
-// `a/b/c`, negative ones counting backwards, faces of any size, lines continued by a backslash, and the tags
+// Taken: `v x y z` or `v x y z r g b [a]`, colours 0 to 1 (a weight is dropped), `f` with its vertices as `a`, `a/b`,
+// `a//c` or `a/b/c`, negative ones counting backwards, faces of any size, lines continued by a backslash, and the tags
 // clang-format off
 //
 //     t NAME INTS/FLOATS/STRINGS  integers... floats... strings...        all ids count from 0, unlike those of `f`
@@ -18,9 +18,10 @@
 // clang-format on
 //
 // Texture coordinates, `vt u [v [w]]`, become the face-varying channel "uv" where every corner of every face has one;
-// where only some have, none is kept, and a warning says so. Indices into a file without `vt` are skipped. Groups, `g`,
-// and objects, `o`, name faces: the words of a `g` are one name, and without a word it ends the group. Normals,
-// materials, points and lines are skipped; unknown keywords, unknown tags and hierarchical edits are skipped
+// where only some have, none is kept, and a warning says so. Indices into a file without `vt` are skipped, and 0 is
+// none. Groups, `g`, objects, `o`, materials, `usemtl`, and smoothing groups, `s`, name faces: the words of a line are
+// one name, and without a word the faces that follow have none. `mtllib` is kept. `call FILE` stands for the lines of
+// that file. Normals, points and lines are skipped; unknown keywords, unknown tags and hierarchical edits are skipped
 // with a warning. So are free-form curves and surfaces, which free_form.h reads: the warning says how many there are.
 #include <filesystem>
 #include <string>

@@ -5,16 +5,26 @@
 
 namespace sublimit {
 
-Index ObjNames::read(TextScanner& scanner, std::vector<std::string>& names) {
-  std::string name;
+std::string rest_of_line(TextScanner& scanner) {
+  std::string words;
   for (std::string_view token; !(token = scanner.token()).empty();) {
-    if (!name.empty()) name += ' ';
-    name += token;
+    if (!words.empty()) words += ' ';
+    words += token;
   }
+  return words;
+}
+
+Index ObjNames::number(std::string name, std::vector<std::string>& names) {
   if (name.empty()) return -1;
   const auto [found, is_new] = numbers_.emplace(std::move(name), static_cast<Index>(names.size()));
   if (is_new) names.push_back(found->first);
   return found->second;
+}
+
+void ObjNames::add_face(std::size_t face, Mesh::FaceNames& names) const {
+  if (current_ < 0 && names.of_face.empty()) return;
+  names.of_face.resize(face, -1);  // those before the first that has one
+  names.of_face.push_back(current_);
 }
 
 }  // namespace sublimit

@@ -1,24 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Names of groups and objects in OBJ files, `g NAME ...` and `o NAME`, which apply to the elements up to the
-// next such line.
+// Lines of OBJ files that name the faces after them: `g`, `o`, `usemtl`, `s`.
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "sublimit/io/detail/text_scanner.h"
+#include "sublimit/mesh/mesh.h"
 
 namespace sublimit {
 
+/// Returns the words that are left of a line, joined by a blank.
+std::string rest_of_line(TextScanner& scanner);
+
+/// Names of one kind. Words of a line are one name; faces after a line without a word have none.
 class ObjNames {
  public:
-  /// Reads the rest of a line after its `g` or `o`. Several words are one name with blanks.
-  /// @param names  list of names, to which it is added if it is new
-  /// @return       index of the name; -1 if the line has none
-  Index read(TextScanner& scanner, std::vector<std::string>& names);
+  /// Returns the number of a name in a list, where it is added if it is new; -1 for an empty one.
+  Index number(std::string name, std::vector<std::string>& names);
+  /// Names the faces that follow.
+  void set(std::string name, Mesh::FaceNames& names) { current_ = number(std::move(name), names.names); }
+  /// Names them by the rest of a line.
+  void read(TextScanner& scanner, Mesh::FaceNames& names) { set(rest_of_line(scanner), names); }
+  /// Names the next face.
+  /// @param face  its number
+  void add_face(std::size_t face, Mesh::FaceNames& names) const;
 
  private:
   std::unordered_map<std::string, Index> numbers_;
+  Index current_ = -1;
 };
 
 }  // namespace sublimit

@@ -193,7 +193,7 @@ void ObjTags::skip(const TextScanner& scanner, std::string_view name, const char
   if (skipped_.size() == most) mesh.warnings.push_back(scanner.place() + "further unknown tags are not listed");
 }
 
-void ObjTags::check(const TextScanner& scanner, const Mesh& mesh) const {
+void ObjTags::settle(const TextScanner& scanner, Mesh& mesh) const {
   const auto check_id = [&](std::int64_t line, const char* tag, const char* what, Index id, Index count) {
     if (id < count) return;
     throw InvalidMesh(scanner.place(line) + tag + ": " + what + " " + format_number(id) +
@@ -214,18 +214,17 @@ void ObjTags::check(const TextScanner& scanner, const Mesh& mesh) const {
     check_id(interval_lines_[i], "knotinterval", "vertex", mesh.knot_intervals[i].tail, mesh.num_vertices());
     check_id(interval_lines_[i], "knotinterval", "vertex", mesh.knot_intervals[i].head, mesh.num_vertices());
   }
-  const auto check_edges = [&](std::span<const Mesh::Crease> edges, const std::vector<std::int64_t>& lines,
-                               const char* tag, const char* rule) {
-    const std::vector<bool> found = along_edges(mesh, edges);
-    const auto missing = std::find(found.begin(), found.end(), false);
-    if (missing == found.end()) return;
-    const auto i = static_cast<std::size_t>(missing - found.begin());
-    throw InvalidMesh(scanner.place(lines[i]) + tag + ": no face has an edge between vertices " +
-                      format_number(edges[i].tail) + " and " + format_number(edges[i].head) + "; " + rule +
-                      " (ids in tags count from 0)");
-  };
-  check_edges(mesh.creases, crease_lines_, "crease", "a crease runs along an edge");
-  check_edges(edges_of(mesh.knot_intervals), interval_lines_, "knotinterval", "an interval is of an edge");
+  const std::vector<Mesh::Crease> interval_edges = edges_of(mesh.knot_intervals);
+  const std::vector<bool> measured = along_edges(mesh, interval_edges);
+  if (const auto missing = std::ranges::find(measured, false); missing != measured.end()) {
+    const auto i = static_cast<std::size_t>(missing - measured.begin());
+    throw InvalidMesh(scanner.place(interval_lines_[i]) + "knotinterval: no face has an edge between vertices " +
+                      format_number(interval_edges[i].tail) + " and " + format_number(interval_edges[i].head) +
+                      "; an interval is of an edge (ids in tags count from 0)");
+  }
+  std::vector<std::string> places;
+  for (const std::int64_t line : crease_lines_) places.push_back(scanner.place(line));
+  drop_loose_creases(mesh, places);
 }
 
 }  // namespace sublimit

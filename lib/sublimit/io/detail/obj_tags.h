@@ -16,9 +16,10 @@ class ObjTags {
  public:
   /// Reads the rest of a line behind its `t` into the mesh.
   void read(TextScanner& scanner, Mesh& mesh);
-  /// Checks every tag against the whole mesh, whose faces are valid.
-  /// @throws InvalidMesh  an id out of range, a crease or interval where no face has an edge; with the line of the tag
-  void check(const TextScanner& scanner, const Mesh& mesh) const;
+  /// Checks every tag against the whole mesh, whose faces are valid. Creases where no face has an edge are taken out,
+  /// with a warning.
+  /// @throws InvalidMesh  an id out of range, an interval where no face has an edge; with the line of the tag
+  void settle(const TextScanner& scanner, Mesh& mesh) const;
 
  private:
   struct Arguments;

@@ -2,9 +2,12 @@
 #pragma once
 // Polygon File Format (Stanford): text or binary of either byte order, numbers of any type.
 //
-// Read: `x`, `y`, `z` of the element `vertex` and the list `vertex_index` or `vertex_indices` of the element `face`;
-// all else is skipped, except for requested properties of vertices. Written: binary little-endian, doubles, one
-// normal per vertex. The format has no tags.
+// Read: `x`, `y`, `z` of the element `vertex` and the list `vertex_index` or `vertex_indices` of the element `face`, or
+// of `tristrips` if there are no faces. Further numbers of vertices and faces become `vertex_values` and `face_values`,
+// but for normals of vertices; the list `texcoord` of faces becomes a face-varying channel `uv`. Other lists and
+// elements are left out, with a warning. Written: binary little-endian, positions as doubles, values in their types,
+// integers rounded and as large as their type has them, one normal per vertex, two numbers of the first face-varying
+// channel as floats. The format has no tags.
 #include <filesystem>
 #include <span>
 #include <string>
@@ -27,14 +30,17 @@ Mesh read_ply(const std::filesystem::path& path);
 /// @throws the errors of `read_ply` except IoError
 Mesh parse_ply(std::string_view bytes, std::string_view name);
 
-/// Returns the mesh with the named properties as its `vertex_values`; properties that the file lacks are left
+/// Returns the shape with the named numbers of vertices as its `vertex_values`; those that the file lacks are left
 /// out.
 Mesh read_ply(const std::filesystem::path& path, std::span<const std::string> names);
 Mesh parse_ply(std::string_view bytes, std::string_view name, std::span<const std::string> names);
 
 /// Returns a mesh as the bytes of a file.
-/// @throws InvalidParameter  normals per corner, arrays that do not fit together
-/// @throws InvalidMesh       coordinates that are not finite
+///
+/// Of values with the same name the last are written; `texture`, `face_ids` and normals take the place of values named
+/// `s`, `t`, `face_id`, `nx`, `ny` and `nz`.
+/// @throws InvalidParameter  normals per corner, arrays that do not fit together, names that a header cannot have
+/// @throws InvalidMesh       numbers that are not finite, or of texture coordinates beyond floats
 std::string format_ply(const Mesh& mesh);
 /// Writes a mesh to a file, which appears whole or not at all.
 void write_ply(const std::filesystem::path& path, const Mesh& mesh,

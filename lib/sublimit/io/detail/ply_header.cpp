@@ -104,17 +104,19 @@ class HeaderParser {
     property.type = type(token);
     property.name = scanner_.token();
     if (property.name.empty()) fail("a property without a name; it should be 'property TYPE NAME'");
+    property.line = scanner_.line();
     end_line();
     header_.elements.back().properties.push_back(std::move(property));
   }
 
   void finish() {
-    // Binary data starts right behind the line end of end_header: whatever kind of line end the first line has.
+    // Data starts right behind the line end of end_header, which may be another one than those of the lines above. A
+    // line feed behind a carriage return is data only where lines end in a carriage return alone.
     end_line();
     auto size = static_cast<std::size_t>(scanner_.offset());
     const std::size_t first_end = bytes_.find_first_of("\r\n");
-    const bool crlf = bytes_.substr(first_end, 2) == "\r\n";
-    if (size < bytes_.size()) size += crlf && bytes_.substr(size, 2) == "\r\n" ? 2 : 1;
+    const bool cr_alone = bytes_[first_end] == '\r' && bytes_.substr(first_end, 2) != "\r\n";
+    if (size < bytes_.size()) size += !cr_alone && bytes_.substr(size, 2) == "\r\n" ? 2 : 1;
     header_.size = static_cast<std::int64_t>(size);
     header_.lines = scanner_.line();
 

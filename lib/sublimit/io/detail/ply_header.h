@@ -7,9 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "sublimit/mesh/mesh.h"
+
 namespace sublimit {
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+using PlyType = ValueType;
 std::int64_t byte_size(PlyType type);
 bool is_integer(PlyType type);
 
@@ -17,6 +19,7 @@ struct PlyProperty {
   std::string name;
   PlyType type;                   ///< of the value, or of each value of a list
   std::optional<PlyType> length;  ///< for lists: type of the number of values, which precedes them
+  std::int64_t line = 0;
 };
 
 struct PlyElement {

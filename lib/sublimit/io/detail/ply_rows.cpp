@@ -31,6 +31,25 @@ const PlyElement& require_element(const PlyHeader& header, const std::string& fi
   return *found;
 }
 
+std::vector<std::string> names_of_numbers(const PlyElement& element, std::span<const std::string_view> except) {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : element.properties)
+    if (!property.length && std::ranges::find(except, property.name) == except.end() &&
+        std::ranges::count(element.properties, property.name, &PlyProperty::name) == 1)
+      names.push_back(property.name);
+  return names;
+}
+
+std::size_t find_indices(const PlyElement& element, const std::string& file) {
+  const auto& properties = element.properties;
+  std::size_t list = find(element, file, "vertex_indices");
+  if (list == properties.size()) list = find(element, file, "vertex_index");
+  if (list == properties.size() || !properties[list].length)
+    fail(element, file, "element '" + element.name + "' has no list 'vertex_indices' or 'vertex_index'");
+  if (!is_integer(properties[list].type)) fail(element, file, "indices of vertices should have an integer type");
+  return list;
+}
+
 PlyVertices::PlyVertices(const PlyElement& vertex, const std::string& file, std::span<const std::string> further)
     : vertex_(&vertex), column_(vertex.properties.size(), -1) {
   const auto number_named = [&](std::string_view name) {
@@ -52,13 +71,21 @@ PlyVertices::PlyVertices(const PlyElement& vertex, const std::string& file, std:
   }
 }
 
-PlyFaces::PlyFaces(const PlyElement& face, const std::string& file, std::int64_t num_vertices)
-    : face_(&face), file_(file), num_vertices_(num_vertices), list_(find(face, file, "vertex_indices")) {
-  const auto& properties = face.properties;
-  if (list_ == properties.size()) list_ = find(face, file, "vertex_index");
-  if (list_ == properties.size() || !properties[list_].length)
-    fail(face, file, "element 'face' has no list 'vertex_indices' or 'vertex_index'");
-  if (!is_integer(properties[list_].type)) fail(face, file, "indices of vertices should have an integer type");
+PlyFaces::PlyFaces(const PlyElement& face, const std::string& file, std::int64_t num_vertices,
+                   std::span<const std::string> further)
+    : face_(&face),
+      file_(file),
+      num_vertices_(num_vertices),
+      list_(find_indices(face, file)),
+      texture_(face.properties.size()),
+      column_(face.properties.size(), -1) {
+  for (std::size_t i = 0; i < face.properties.size(); ++i) {
+    const PlyProperty& property = face.properties[i];
+    if (property.length && property.name == "texcoord") texture_ = i;
+    if (property.length || std::ranges::find(further, property.name) == further.end()) continue;
+    column_[i] = static_cast<int>(further_.size());
+    further_.push_back(&property);
+  }
 }
 
 }  // namespace sublimit

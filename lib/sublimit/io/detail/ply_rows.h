@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 // Rows of the elements of a PLY file that make a mesh: `vertex` with x, y and z, `face` with the list `vertex_indices`
-// or `vertex_index`. `Values` is PlyTextValues or PlyBinaryValues and stands where a row begins, so a reader may start
-// anywhere in the data.
+// or `vertex_index`, and further numbers of both. `Values` is PlyTextValues or PlyBinaryValues and stands where a row
+// begins, so a reader may start anywhere in the data.
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -22,6 +22,14 @@ namespace sublimit {
 /// @throws InvalidMesh  the file has no such element, or none of its kind
 const PlyElement& require_element(const PlyHeader& header, const std::string& file, std::string_view name,
                                   std::string_view properties);
+
+/// Returns the names of an element's numbers in the order of the file, without those of two properties.
+/// @param except  names to leave out
+std::vector<std::string> names_of_numbers(const PlyElement& element, std::span<const std::string_view> except);
+
+/// Returns the position of the list of indices, `vertex_indices` or `vertex_index`, among an element's properties.
+/// @throws FormatError  there is no such list of integers
+std::size_t find_indices(const PlyElement& element, const std::string& file);
 
 /// Reads the number of values of a list.
 template <class Values>
@@ -46,6 +54,18 @@ void skip(Values& values, const PlyElement& element) {
     for (const PlyProperty& property : element.properties) skip(values, property);
     values.end_row();
   }
+}
+
+/// Checks an index of a vertex.
+/// @param of, number  whose it is, for the message: "face", 3
+/// @throws InvalidMesh  out of range
+template <class Values>
+void check_vertex(const Values& values, std::int64_t vertex, std::int64_t num_vertices, std::string_view of,
+                  std::int64_t number) {
+  if (vertex >= 0 && vertex < num_vertices) return;
+  throw InvalidMesh(values.place() + "index " + format_number(vertex) + " of " + std::string(of) + " " +
+                    format_number(number) + " is out of range; the file has " + format_number(num_vertices) +
+                    " vertices, 0 to " + format_number(num_vertices - 1));
 }
 
 /// Rows of the element `vertex`. Keeps a reference to the element.
@@ -90,22 +110,44 @@ class PlyVertices {
 class PlyFaces {
  public:
   /// @param num_vertices  number of vertices of the whole mesh
+  /// @param further       names of numbers to read besides the corners; those that the element lacks are left out
   /// @throws FormatError  no list of indices
-  PlyFaces(const PlyElement& face, const std::string& file, std::int64_t num_vertices);
-  PlyFaces(const PlyElement&&, const std::string&, std::int64_t) = delete;
+  PlyFaces(const PlyElement& face, const std::string& file, std::int64_t num_vertices,
+           std::span<const std::string> further = {});
+  PlyFaces(const PlyElement&&, const std::string&, std::int64_t, std::span<const std::string> = {}) = delete;
+
+  /// Returns the further numbers that the element has.
+  const std::vector<const PlyProperty*>& further() const { return further_; }
+  /// Returns the list `texcoord`: two texture coordinates for each corner; null if there is none.
+  const PlyProperty* texture() const { return texture_ < column_.size() ? &face_->properties[texture_] : nullptr; }
 
   /// Reads a row and appends the vertices of the face. Returns how many these are.
   /// @param number  number of the face, for messages
   /// @throws InvalidMesh  fewer than 3 corners, indices out of range;  FormatError  as `values`
   template <class Values, class Int>
   Index read(Values& values, std::int64_t number, std::vector<Int>& vertices) const {
+    return read(values, number, vertices, {}, nullptr);
+  }
+  /// Reads the same with what else is known of a face.
+  /// @param further  the further numbers, or empty
+  /// @param texture  the list `texcoord` is appended to it; or null
+  template <class Values, class Int>
+  Index read(Values& values, std::int64_t number, std::vector<Int>& vertices, std::span<double> further,
+             std::vector<double>* texture) const {
     Index size = 0;
     values.begin_row();
     for (std::size_t i = 0; i < face_->properties.size(); ++i) {
-      if (i == list_)
+      const PlyProperty& property = face_->properties[i];
+      if (i == list_) {
         size = read_list(values, number, vertices);
-      else
-        skip(values, face_->properties[i]);
+      } else if (column_[i] >= 0 && !further.empty()) {
+        further[std::size_t(column_[i])] = values.real(property.type);
+      } else if (i == texture_ && texture) {
+        for (std::int64_t left = read_length(values, property); left > 0; --left)  // ends with the data at the latest
+          texture->push_back(values.real(property.type));
+      } else {
+        skip(values, property);
+      }
     }
     values.end_row();
     return size;
@@ -121,10 +163,7 @@ class PlyFaces {
                         " corners; it should have at least 3");
     for (std::int64_t i = 0; i < size; ++i) {  // ends with the data at the latest
       const std::int64_t vertex = values.integer(list.type);
-      if (vertex < 0 || vertex >= num_vertices_)
-        throw InvalidMesh(values.place() + "index " + format_number(vertex) + " of face " + format_number(number) +
-                          " is out of range; the file has " + format_number(num_vertices_) + " vertices, 0 to " +
-                          format_number(num_vertices_ - 1));
+      check_vertex(values, vertex, num_vertices_, "face", number);
       vertices.push_back(static_cast<Int>(vertex));
     }
     return checked_index(size, file_, "corners of a face");
@@ -133,7 +172,9 @@ class PlyFaces {
   const PlyElement* face_;
   std::string file_;
   std::int64_t num_vertices_;
-  std::size_t list_;
+  std::size_t list_, texture_;  // positions of properties
+  std::vector<const PlyProperty*> further_;
+  std::vector<int> column_;  // of each property in `further_`, -1: none
 };
 
 }  // namespace sublimit

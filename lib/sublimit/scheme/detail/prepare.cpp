@@ -4,7 +4,7 @@
 #include <string>
 
 #include "sublimit/base/error.h"
-#include "sublimit/mesh/detail/check_mesh.h"
+#include "sublimit/mesh/detail/attributes.h"
 #include "sublimit/mesh/sharpness.h"
 
 namespace sublimit {
@@ -12,13 +12,10 @@ namespace sublimit {
 Mesh triangulated(const Mesh& mesh) {
   const Topology t(view(mesh));
   const std::vector<bool> holes = initial_holes(t, mesh, Boundary::edge_only);
-  check_face_names(mesh);
-  const std::vector<Index>& names = mesh.face_names.of_face;
   Mesh result = mesh;
   result.face_sizes.clear();
   result.face_vertices.clear();
   result.holes.clear();
-  result.face_names.of_face.clear();
   result.knot_intervals.clear();  // of strips of quadrilaterals
   for (Mesh::FaceVarying& channel : result.face_varying) {
     if (channel.indices.size() != mesh.face_vertices.size())
@@ -27,11 +24,12 @@ Mesh triangulated(const Mesh& mesh) {
                         " corners");
     channel.indices.clear();
   }
+  std::vector<Index> parents;
   for (Index f = 0; f < t.num_faces(); ++f) {
     const std::span<const Index> corners = t.vertices(Face{f});
     for (size_t i = 1; i + 1 < corners.size(); ++i) {
       if (holes[f]) result.holes.push_back(result.num_faces());
-      if (!names.empty()) result.face_names.of_face.push_back(names[size_t(f)]);
+      parents.push_back(f);
       result.face_sizes.push_back(3);
       result.face_vertices.insert(result.face_vertices.end(), {corners[0], corners[i], corners[i + 1]});
       for (size_t c = 0; c < mesh.face_varying.size(); ++c) {
@@ -41,6 +39,7 @@ Mesh triangulated(const Mesh& mesh) {
       }
     }
   }
+  carry_faces(mesh, parents, result);
   return result;
 }
 

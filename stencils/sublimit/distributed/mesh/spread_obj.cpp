@@ -6,6 +6,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/mesh/spread_readers.h"
 #include "sublimit/io/detail/obj.h"
+#include "sublimit/mesh/detail/attributes.h"
 
 namespace sublimit {
 namespace {
@@ -83,7 +84,10 @@ SpreadMesh read_obj_parts(const Ranks& ranks, std::string_view text, const std::
   mesh.face_sizes = std::move(read.face_sizes);
   mesh.face_vertices.assign(read.face_vertices.begin(), read.face_vertices.end());
   take_channel(ranks, read, mesh, name);
+  const bool has_names = has_face_attributes(read);
   take_tags(ranks, read, mesh);
+  if (!ranks.all(!has_names) && ranks.is_first())
+    mesh.about.warnings.push_back(name + ": names of faces are left out; `sublimit refine` keeps them");
   agree(ranks, mesh.about.boundary);
   agree(ranks, mesh.about.creasing);
   agree(ranks, mesh.about.triangles);

@@ -2,7 +2,7 @@
 #pragma once
 // Files with query points, and with the points of a surface that are nearest to them:
 //
-//   in    .csv, with the header x,y,z or none; .npy, n x 3; the vertices of an .obj, .ply or .off
+//   in    .csv, with the header x,y,z or none; .npy, n x 3; the vertices of an .obj, .ply, .off or .stl
 //   out   [point,]face,u,v,x,y,z,nx,ny,nz,distance,lower,status
 #include <filesystem>
 

@@ -2,7 +2,7 @@
 #pragma once
 // Reading the points that a table is applied to from a file, frame by frame:
 //
-//   .obj, .ply, .off   the vertices of a mesh, x y z
+//   .obj, .ply, .off, .stl   the vertices of a mesh, x y z
 //   .csv               a point in each line, a channel in each column; the first line may name the channels
 //   .npy               float or double, vertices x channels, or frames x vertices x channels, read frame by frame
 #include <filesystem>

@@ -4,21 +4,25 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/mesh/detail/attributes.h"
 
 namespace sublimit {
 
-Mesh mesh_output(Mesh mesh, bool tags) {
-  if (tags) return mesh;
+Mesh without_tags(Mesh mesh) {
   Mesh bare;
   bare.positions.swap(mesh.positions);
   bare.face_sizes = std::move(mesh.face_sizes);
   bare.face_vertices = std::move(mesh.face_vertices);
+  bare.face_varying = std::move(mesh.face_varying);
+  bare.vertex_values = std::move(mesh.vertex_values);
+  carry_faces(mesh, bare);
+  bare.warnings = std::move(mesh.warnings);
   return bare;
 }
-
 Mesh level_output(const Level& level, const Points& points, const Mesh& control, const SubdivisionOptions& options,
                   bool tags) {
-  return mesh_output(level_mesh(level, points, control, options), tags);
+  Mesh mesh = level_mesh(level, points, control, options);
+  return tags ? mesh : without_tags(std::move(mesh));
 }
 
 Mesh limit_mesh(const Level& level, const LimitMatrices& limit, const LimitPoints& points, Normals normals) {

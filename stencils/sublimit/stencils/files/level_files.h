@@ -11,8 +11,8 @@ namespace sublimit {
 /// Returns a level as a mesh (`level_mesh`), or only its points and faces.
 Mesh level_output(const Level& level, const Points& points, const Mesh& control, const SubdivisionOptions& options,
                   bool tags);
-/// Returns the output for a refined mesh.
-Mesh mesh_output(Mesh mesh, bool tags);
+/// Returns a mesh of points, faces, values and names only.
+Mesh without_tags(Mesh mesh);
 
 /// Returns the mesh of limit positions, without holes. Normals, if wanted, are per corner (each side of a crease has
 /// its own), or the mean over a vertex's sides if the format has one per vertex.

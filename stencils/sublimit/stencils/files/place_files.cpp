@@ -39,13 +39,13 @@ void write_places(const std::filesystem::path& path, std::span<const Place> plac
 }
 
 void add_places(Mesh& mesh, std::span<const Place> places) {
-  Mesh::VertexValues face{properties[0], {}, true}, u{properties[1]}, v{properties[2]};
+  Mesh::Values face{properties[0], {}, ValueType::int32}, u{properties[1]}, v{properties[2]};
   for (const Place& s : places) {
     face.values.push_back(s.face);
     u.values.push_back(s.u);
     v.values.push_back(s.v);
   }
-  for (Mesh::VertexValues* values : {&face, &u, &v}) mesh.vertex_values.push_back(std::move(*values));
+  for (Mesh::Values* values : {&face, &u, &v}) mesh.vertex_values.push_back(std::move(*values));
 }
 
 PlacedFaces read_placed_faces(const std::filesystem::path& path) {
@@ -54,13 +54,14 @@ PlacedFaces read_placed_faces(const std::filesystem::path& path) {
                         all_formats().readers_in_words({contents::vertex_values}, "or") +
                         "; `sublimit tessellate -o FILE.ply` writes it");
   Mesh read = read_ply(path, properties);
-  const std::vector<Mesh::VertexValues>& found = read.vertex_values;
+  const std::vector<Mesh::Values>& found = read.vertex_values;
   if (found.size() != properties.size())
     throw FormatError(
         path.string() +
         ": its vertices have no place_face, place_u and place_v; `sublimit tessellate -o FILE.ply` writes "
         "them");
-  if (!found[0].whole) throw FormatError(path.string() + ": place_face should have an integer type");
+  if (found[0].type == ValueType::float32 || found[0].type == ValueType::float64)
+    throw FormatError(path.string() + ": place_face should have an integer type");
   PlacedFaces faces{{}, std::move(read.face_sizes), std::move(read.face_vertices)};
   faces.places.reserve(found[0].values.size());
   for (size_t i = 0; i < found[0].values.size(); ++i) {

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/mesh/detail/attributes.h"
+#include "sublimit/primvar/vertex_values.h"
 #include "sublimit/tessellation/detail/corner_values.h"
 
 namespace sublimit {
@@ -40,6 +42,17 @@ Mesh tessellation_mesh(const Tessellation& made, const Addresses& addresses) {
   Mesh out = tessellation_mesh(made);
   for (const Tessellation::Triangle& t : made.triangles) out.face_ids.push_back(index(addresses.place(t.face).face));
   return out;
+}
+
+void carry_attributes(const Scheme<double>& scheme, const Mesh& control, const LimitMap& surface,
+                      const Tessellation& made, Mesh& out) {
+  if (has_face_attributes(control)) {
+    std::vector<Index> faces;
+    for (const Tessellation::Triangle& t : made.triangles)
+      faces.push_back(index(surface.addresses().place(t.face).face));
+    carry_faces(control, faces, out);
+  }
+  set_vertex_values(out, control, limit_vertex_values(scheme, control, surface, made.places));
 }
 
 std::vector<Place> corner_places(const Tessellation& made) {

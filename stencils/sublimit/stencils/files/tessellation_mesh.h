@@ -12,6 +12,9 @@ namespace sublimit {
 
 /// Returns the mesh of points and triangles; vertex i is place i.
 Mesh tessellation_mesh(const Tessellation& made);
+/// Gives triangles the names and values of the faces that they lie on, and points the values of the limit there.
+void carry_attributes(const Scheme<double>& scheme, const Mesh& control, const LimitMap& surface,
+                      const Tessellation& made, Mesh& out);
 /// Returns the mesh with the face of the control mesh that each triangle lies on, as `face_ids`.
 Mesh tessellation_mesh(const Tessellation& made, const Addresses& addresses);
 

@@ -19,6 +19,7 @@ const char* word(Boundary rule) { return boundary_words[size_t(rule)]; }
 const char* word(Creasing rule) { return creasing_words[size_t(rule)]; }
 const char* word(FaceVaryingInterpolation rule) { return face_varying_words[size_t(rule)]; }
 const char* word(Triangles rule) { return triangles_words[size_t(rule)]; }
+const char* word(Attributes rule) { return attributes_words[size_t(rule)]; }
 
 template <>
 std::optional<Boundary> rule_of(const std::string& word) {
@@ -35,6 +36,10 @@ std::optional<FaceVaryingInterpolation> rule_of(const std::string& word) {
 template <>
 std::optional<Triangles> rule_of(const std::string& word) {
   return find<Triangles>(triangles_words, word);
+}
+template <>
+std::optional<Attributes> rule_of(const std::string& word) {
+  return find<Attributes>(attributes_words, word);
 }
 
 }  // namespace sublimit

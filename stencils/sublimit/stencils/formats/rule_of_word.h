@@ -16,6 +16,8 @@ const char* word(Creasing rule);
 const char* word(FaceVaryingInterpolation rule);
 /// Returns the word of a rule: catmark, smooth.
 const char* word(Triangles rule);
+/// Returns the word of a rule: smooth, linear, drop.
+const char* word(Attributes rule);
 
 /// Returns the rule of a word, `rule_of<Boundary>("edge-only")`; absent for other words.
 template <class Rule>

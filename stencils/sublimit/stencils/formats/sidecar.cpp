@@ -2,6 +2,7 @@
 #include "sublimit/stencils/formats/sidecar.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fstream>
 #include <initializer_list>
@@ -18,6 +19,12 @@
 namespace sublimit {
 namespace {
 
+/// What a sidecar may have. A file with none of them is something else.
+constexpr std::array<std::string_view, 12> sidecar_keys{
+    "creaseIndices",       "creaseLengths", "creaseSharpnesses",       "cornerIndices",
+    "cornerSharpnesses",   "knotIntervals", "knotIntervalEdges",       "holeIndices",
+    "interpolateBoundary", "creaseMethod",  "triangleSubdivisionRule", "faceVaryingLinearInterpolation"};
+
 class Sidecar {
  public:
   /// @param root  must outlive this
@@ -27,7 +34,7 @@ class Sidecar {
     counts_ = elsewhere.value_or(MeshCounts{mesh.num_vertices(), mesh.num_faces()});
     knows_edges_ = !elsewhere;
     // All of it is read and checked before any of it is applied.
-    std::vector<Mesh::Crease> creases = read_creases(mesh);
+    std::vector<Mesh::Crease> creases = read_creases();
     std::vector<Mesh::Corner> corners = read_corners();
     std::vector<Mesh::KnotInterval> intervals = read_intervals(mesh);
     std::vector<Index> holes = read_ids("holeIndices", counts_.faces, "a face");
@@ -46,7 +53,10 @@ class Sidecar {
                                                                             {"cornersPlus2", corners_plus2},
                                                                             {"boundaries", boundaries},
                                                                             {"all", all}});
-    if (object_.has("creaseIndices")) mesh.creases = std::move(creases);
+    if (object_.has("creaseIndices")) {
+      mesh.creases = std::move(creases);
+      if (knows_edges_) drop_loose_creases(mesh, crease_places_);
+    }
     if (object_.has("cornerIndices")) mesh.corners = std::move(corners);
     if (object_.has("knotIntervals")) mesh.knot_intervals = std::move(intervals);
     if (object_.has("holeIndices")) mesh.holes = std::move(holes);
@@ -87,21 +97,7 @@ class Sidecar {
     return values;
   }
 
-  /// Checks that edges are those of faces.
-  /// @param position  position of an edge's tail in the list `key`
-  template <class Position>
-  void check_edges(const Mesh& mesh, const std::vector<Mesh::Crease>& edges, const std::string& key,
-                   const Position& position, const char* why) {
-    if (!knows_edges_) return;
-    const std::vector<bool> found = along_edges(mesh, edges);
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      if (!found[i])
-        object_.fail(JsonObject::entry(key, position(i)), "no face has an edge between vertices " +
-                                                              format_number(edges[i].tail) + " and " +
-                                                              format_number(edges[i].head) + "; " + why);
-  }
-
-  std::vector<Mesh::Crease> read_creases(const Mesh& mesh) {
+  std::vector<Mesh::Crease> read_creases() {
     const std::vector<Index> ids = read_ids("creaseIndices", counts_.vertices, "a vertex");
     if (!has("creaseIndices", {"creaseLengths", "creaseSharpnesses"})) return {};
     require_beside("creaseLengths", "creaseIndices");
@@ -127,18 +123,15 @@ class Sidecar {
                                             format_number(edges) + ", one for each edge");
 
     std::vector<Mesh::Crease> creases;
-    std::vector<std::size_t> positions;  // of each crease's tail in creaseIndices
     std::size_t position = 0;
     for (std::size_t chain = 0; chain < lengths.size(); ++chain, ++position) {
       for (int left = lengths[chain]; left > 1; --left, ++position) {
         creases.push_back({.tail = ids[position],
                            .head = ids[position + 1],
                            .sharpness = sharpnesses[per_chain ? chain : creases.size()]});
-        positions.push_back(position);
+        crease_places_.push_back(object_.place() + ": " + JsonObject::entry("creaseIndices", position) + ": ");
       }
     }
-    check_edges(
-        mesh, creases, "creaseIndices", [&](std::size_t i) { return positions[i]; }, "a crease runs along edges");
     return creases;
   }
 
@@ -170,9 +163,14 @@ class Sidecar {
                      "is " + format_number(lengths[i]) + "; an interval should be a positive number");
       intervals.push_back({.tail = ids[2 * i], .head = ids[2 * i + 1], .length = lengths[i]});
     }
-    check_edges(
-        mesh, edges_of(intervals), "knotIntervalEdges", [](std::size_t i) { return 2 * i; },
-        "an interval is of an edge");
+    if (!knows_edges_) return intervals;
+    const std::vector<bool> found = along_edges(mesh, edges_of(intervals));
+    if (const auto missing = std::ranges::find(found, false); missing != found.end()) {
+      const auto i = static_cast<std::size_t>(missing - found.begin());
+      object_.fail(JsonObject::entry("knotIntervalEdges", 2 * i),
+                   "no face has an edge between vertices " + format_number(intervals[i].tail) + " and " +
+                       format_number(intervals[i].head) + "; an interval is of an edge");
+    }
     return intervals;
   }
 
@@ -200,6 +198,7 @@ class Sidecar {
   JsonObject object_;
   MeshCounts counts_;
   bool knows_edges_ = true;
+  std::vector<std::string> crease_places_;  // of each crease, for messages
 };
 
 /// Reports of this program may lie beside a mesh under its name; they say at once what they are.
@@ -217,8 +216,11 @@ std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& m
   std::filesystem::path path = mesh;
   path.replace_extension(".json");
   std::error_code error;
-  if (path == mesh || !std::filesystem::exists(path, error) || is_report(path)) return std::nullopt;
-  return path;
+  if (path == mesh || !std::filesystem::is_regular_file(path, error) || is_report(path)) return std::nullopt;
+  const std::string text = read_file(path);
+  const bool has_key = std::ranges::any_of(
+      sidecar_keys, [&](std::string_view key) { return text.find('"' + std::string(key) + '"') != std::string::npos; });
+  return has_key ? std::optional(path) : std::nullopt;
 }
 
 void apply_sidecar(Mesh& mesh, const std::filesystem::path& path) {

@@ -24,13 +24,14 @@
 
 namespace sublimit {
 
-/// Returns the sidecar of a mesh file: the same path with the extension .json, unless that is a report of this
-/// program (its first entry is `"format": "sublimit-..."`). Absent if there is none.
+/// Returns the sidecar of a mesh file: the same path with the extension .json, if one of a sidecar's keys is in it and
+/// it is no report of this program (its first entry is `"format": "sublimit-..."`). Absent if there is none.
 std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& mesh);
 
-/// Replaces tags of `mesh` by those in a file. Unknown keys become warnings of the mesh.
-/// @throws FormatError  not JSON, wrong types or lengths, ids out of range, creases where no face has an edge; with
-///                      the file, the key and the position. The mesh is then as it was.
+/// Replaces tags of `mesh` by those in a file. Unknown keys, and creases where no face has an edge, become
+/// warnings of the mesh.
+/// @throws FormatError  not JSON, wrong types or lengths, ids out of range; with the file, the key and the
+///                      position. The mesh is then as it was.
 /// @throws IoError      missing, unreadable
 void apply_sidecar(Mesh& mesh, const std::filesystem::path& path);
 

@@ -74,11 +74,14 @@ SplitMesh split_mesh(Mesh mesh) {
   out.positions.resize(count, 3);
   out.normals.resize(mesh.normals.rows() > 0 ? count : 0, 3);
   out.texture = Points::Zero(has_values ? count : 0, 2);
+  for (Mesh::Values& one : out.vertex_values) one.values.clear();
   for (Eigen::Index k = 0; k < count; ++k) {
     const Variants::Variant& v = variants.all()[size_t(order[size_t(k)])];
     split.sources.push_back(v.source);
     split.sides.push_back(variants.side(v));
     out.positions.row(k) = mesh.positions.row(v.source);
+    for (size_t i = 0; i < out.vertex_values.size(); ++i)
+      out.vertex_values[i].values.push_back(mesh.vertex_values[i].values[size_t(v.source)]);
     if (mesh.normals.rows() > 0) out.normals.row(k) = mesh.normals.row(per_corner ? v.normal : v.source);
     if (!has_values) continue;
     const Points& values = mesh.face_varying[0].values;

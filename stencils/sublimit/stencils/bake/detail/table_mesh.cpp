@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/stencils/bake/detail/table_mesh.h"
 
+#include "sublimit/source/address.h"
 #include "sublimit/stencils/formats/rule_of_word.h"
 
 namespace sublimit {
@@ -26,6 +27,30 @@ void add_channels(Mesh& mesh, const BakedTable<Real>& table) {
     mesh.face_varying_interpolation = rule_of<FaceVaryingInterpolation>(table.channels.interpolation);
 }
 
+template <class Real>
+std::vector<Index> control_faces(const BakedTable<Real>& table, const Mesh& control) {
+  const bool is_grid = table.info.rows == TableRows::grid;
+  if (!is_grid && (!table.lattices || !table.lattices->has_addresses())) return {};
+  const Addresses addresses(Topology(view(control)), table.info.triangles);
+  const Lattice lattice = is_grid ? Lattice{table.info.grid - 1, table.info.triangles} : table.lattices->lattice();
+  std::vector<Index> faces;
+  const auto add = [&](Index address) {
+    faces.insert(faces.end(), size_t(lattice.num_cells()), index(addresses.place(address).face));
+  };
+  if (!is_grid) {
+    for (std::int32_t f = 0; f < table.lattices->num_faces(); ++f)
+      if (!table.lattices->is_hole(f)) add(table.lattices->place(f).address);
+    return faces;
+  }
+  const std::vector<std::uint8_t> statuses = statuses_of(table);
+  for (std::int64_t first = 0; first < table.table.num_points(); first += lattice.size())
+    if (statuses.empty() || table.info.statuses[statuses[size_t(first)]] != "hole")
+      add(static_cast<Index>(first / lattice.size()));
+  return faces;
+}
+
+template std::vector<Index> control_faces(const BakedTable<float>&, const Mesh&);
+template std::vector<Index> control_faces(const BakedTable<double>&, const Mesh&);
 template void add_channels(Mesh&, const BakedTable<float>&);
 template void add_channels(Mesh&, const BakedTable<double>&);
 

@@ -11,4 +11,10 @@ namespace sublimit {
 template <class Real>
 void add_channels(Mesh& mesh, const BakedTable<Real>& table);
 
+/// Returns the face of the control mesh for each of `faces_of(table)`; nothing if the table does not know (tables by
+/// rows).
+/// @param control  the mesh that the table was baked from, of triangles if it was cut into these
+template <class Real>
+std::vector<Index> control_faces(const BakedTable<Real>& table, const Mesh& control);
+
 }  // namespace sublimit

@@ -2,10 +2,14 @@
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 #include <algorithm>
+#include <numbers>
 #include <span>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/rule_words.h"
 #include "sublimit/base/error.h"
+#include "sublimit/mesh/sharpness.h"
+#include "sublimit/mesh/topology.h"
 #include "sublimit/scheme/any_scheme.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/stencils/formats/rule_of_word.h"
@@ -23,6 +27,36 @@ std::optional<Rule> rule(const char* what, const std::string& word, std::span<co
   throw InvalidOption(std::string(what) + " '" + word + "' is no rule; there are " + all);
 }
 
+/// Returns numbers as words, the first of them if they are many.
+std::string some_of(const std::vector<Index>& numbers) {
+  constexpr size_t most = 20;
+  std::string all;
+  for (size_t i = 0; i < std::min(numbers.size(), most); ++i) all += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
+  return all + (numbers.size() > most ? ", ..." : "");
+}
+
+/// Does to winding and tags what is asked, and notes it.
+void change_mesh(const MeshRequest& request, Mesh& mesh, std::vector<std::string>& notes) {
+  const auto sharp = [](Index count) {
+    return std::to_string(count) + (count == 1 ? " edge" : " edges") + " made sharp";
+  };
+  if (request.orient) {
+    const std::vector<Index> turned = orient_faces(mesh);
+    notes.push_back(turned.empty() ? "no face had to be turned"
+                                   : std::to_string(turned.size()) + (turned.size() == 1 ? " face" : " faces") +
+                                         " turned: " + some_of(turned));
+  }
+  if (request.crease_angle) {
+    const double degrees = *request.crease_angle;
+    if (!(degrees >= 0 && degrees <= 180))
+      throw InvalidOption("crease-angle is " + format_number(degrees) + "; it should be 0 to 180 degrees");
+    notes.push_back(sharp(add_creases_by_angle(mesh, degrees * std::numbers::pi / 180)) + " by their angle");
+  }
+  if (request.crease_smoothing_groups)
+    notes.push_back(sharp(add_creases_by_smoothing_groups(mesh)) + " between smoothing groups");
+  if (request.boundary == fixed_boundary) fix_border(mesh);
+}
+
 }  // namespace
 
 Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& options) {
@@ -32,8 +66,12 @@ Scheme<double> scheme_or_throw(const std::string& name, const SchemeOptions& opt
 
 MeshJob scheme_job(const MeshRequest& request) {
   MeshJob job;
-  job.rules.boundary = rule<Boundary>("boundary", request.boundary, boundary_words);
+  if (request.boundary == fixed_boundary)
+    job.rules.boundary = Boundary::edge_only;
+  else
+    job.rules.boundary = rule<Boundary>("boundary", request.boundary, boundary_and_fixed_words);
   job.rules.creasing = rule<Creasing>("creasing", request.creasing, creasing_words);
+  rule<Attributes>("attributes", request.attributes, attributes_words);
   const auto triangles = rule<Triangles>("triangles", request.triangles, triangles_words);
   const auto face_varying = rule<FaceVaryingInterpolation>("face-varying", request.face_varying, face_varying_words);
   job.face_varying_asked = face_varying.has_value();
@@ -51,8 +89,10 @@ MeshJob scheme_job(const MeshRequest& request) {
 
 MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name) {
   MeshJob job = scheme_job(request);
-  if (request.triangulate) mesh = triangulated(mesh);
+  if (const auto asked = rule<Attributes>("attributes", request.attributes, attributes_words)) mesh.attributes = asked;
   if (request.no_creases) mesh = without_creases(std::move(mesh));
+  change_mesh(request, mesh, job.notes);
+  if (request.triangulate) mesh = triangulated(mesh);
   if (const auto asked = job.options.find("triangles"); asked != job.options.end()) {
     mesh.triangles = rule_of<Triangles>(asked->second);
   } else if (job.scheme && !request.own_scheme) {
@@ -69,6 +109,8 @@ MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name)
     std::string all;
     for (const std::string& fault : faults(mesh)) all += "\n  " + fault;
     if (!all.empty()) throw InvalidMesh(name + ": not a clean manifold:" + all);
+    for (const std::string& warning : mesh.warnings) all += "\n  " + warning;
+    if (!all.empty()) throw InvalidMesh(name + ": refused, since it has warnings:" + all);
   }
   job.mesh = std::move(mesh);
   return job;

@@ -11,11 +11,15 @@
 
 namespace sublimit {
 
-/// A request. Rules are the words of stencils/files/rule_words.h; empty: the mesh's own.
+/// A request. Rules are words (`rule_of_word.h`), of `boundary` also "fixed": border vertices stay; empty: the mesh's
+/// own.
 struct MeshRequest {
   std::string scheme = {};     ///< name of the scheme; empty: none is needed
   SchemeOptions options = {};  ///< options of the scheme
-  std::string boundary = {}, creasing = {}, triangles = {}, face_varying = {};
+  std::string boundary = {}, creasing = {}, triangles = {}, face_varying = {}, attributes = {};
+  bool orient = false;                                    ///< winding is made consistent first
+  std::optional<double> crease_angle = {};                ///< degrees: edges that bend by more become sharp
+  bool crease_smoothing_groups = false;                   ///< edges between smoothing groups become sharp
   bool triangulate = false;                               ///< every face is cut into triangles first
   bool no_creases = false;                                ///< crease and corner tags are dropped first
   bool strict = false;                                    ///< a mesh that is no clean manifold is refused
@@ -29,6 +33,7 @@ struct MeshJob {
   SchemeOptions options;  ///< options of the scheme, with those that tags of the mesh select
   SubdivisionOptions rules;
   FaceVaryingInterpolation face_varying = FaceVaryingInterpolation::all;
+  std::vector<std::string> notes;   ///< what was done to the mesh as the request asked
   bool face_varying_asked = false;  ///< true if the request asks for it, not a tag: it must be possible
 };
 

@@ -5,6 +5,8 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
+#include "sublimit/mesh/detail/attributes.h"
+#include "sublimit/primvar/vertex_values.h"
 
 namespace sublimit {
 
@@ -30,12 +32,20 @@ std::vector<FaceVaryingLevel> refined_channel(const MeshJob& job, const std::vec
   }
 }
 
+Mesh refined_positions(const MeshJob& job, int levels, const std::function<void(int)>& progress) {
+  Mesh refined = refined_mesh(*job.scheme, job.mesh, levels, job.rules, progress);
+  if (job.mesh.attributes == Attributes::linear)
+    set_vertex_values(refined, job.mesh, refined_vertex_values(*job.scheme, job.mesh, levels));
+  return refined;
+}
+
 Mesh refined_mesh(const MeshJob& job, int levels, const std::function<void(int)>& progress) {
-  if (job.mesh.face_varying.empty()) return refined_mesh(*job.scheme, job.mesh, levels, job.rules, progress);
+  if (job.mesh.face_varying.empty()) return refined_positions(job, levels, progress);
   const std::vector<Level> all = refine(*job.scheme, job.mesh, levels, job.rules, progress);
   Points points = job.mesh.positions;
   for (size_t k = 1; k < all.size(); ++k) points = apply(all[k].S, points);
   Mesh refined = level_mesh(all.back(), std::move(points), job.mesh, job.rules);
+  carry_attributes(job.mesh, all, refined_vertex_values(*job.scheme, job.mesh, all), refined);
   for (const Topology::Fault& fault : all[0].topology().faults()) refined.warnings.push_back(fault.message);
   for (size_t c = 0; c < job.mesh.face_varying.size(); ++c) {
     const Mesh::FaceVarying& given = job.mesh.face_varying[c];
@@ -55,16 +65,6 @@ Mesh refined_mesh(const MeshJob& job, int levels, const std::function<void(int)>
   }
   if (!refined.face_varying.empty()) refined.face_varying_interpolation = job.face_varying;
   return refined;
-}
-
-Mesh without_tags(Mesh mesh) {
-  Mesh bare;
-  bare.positions.swap(mesh.positions);
-  bare.face_sizes = std::move(mesh.face_sizes);
-  bare.face_vertices = std::move(mesh.face_vertices);
-  bare.face_varying = std::move(mesh.face_varying);
-  bare.warnings = std::move(mesh.warnings);
-  return bare;
 }
 
 }  // namespace sublimit

@@ -8,6 +8,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/primvar/face_varying.h"
 #include "sublimit/scheme/refined_mesh.h"
+#include "sublimit/stencils/files/level_files.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
 
 namespace sublimit {
@@ -27,13 +28,14 @@ std::string left_out(const Mesh::FaceVarying& channel, size_t number, const std:
 std::vector<FaceVaryingLevel> refined_channel(const MeshJob& job, const std::vector<Level>& levels,
                                               std::string& why_not, size_t number = 0);
 
+/// Returns level `levels` with remaining tags and attributes, without channels.
+/// @throws Error    as `refined_mesh`
+Mesh refined_positions(const MeshJob& job, int levels, const std::function<void(int)>& progress);
+
 /// Returns level `levels` with remaining tags (`level_mesh`) and all channels.
 /// @param progress  called before each level with its number, if given
 /// @throws Error    as `refined_mesh`, `refined_channel`
 /// @note  The result has only new warnings, not those of the mesh.
 Mesh refined_mesh(const MeshJob& job, int levels, const std::function<void(int)>& progress = {});
-
-/// Returns a mesh of points, faces and values only.
-Mesh without_tags(Mesh mesh);
 
 }  // namespace sublimit

@@ -15,6 +15,7 @@ Mesh tessellated_mesh(const MeshJob& job, const TessellationOptions& options) {
   Tessellation made = tessellate(surface, options);
   Mesh triangles = tessellation_mesh(made, surface.map().addresses());
   if (options.normals) add_normals(triangles, made, std::move(made.normals), false);
+  carry_attributes(*job.scheme, job.mesh, surface.map(), made, triangles);
   for (size_t c = 0; c < job.mesh.face_varying.size(); ++c) {
     const Mesh::FaceVarying& channel = job.mesh.face_varying[c];
     try {
