@@ -1065,7 +1065,7 @@ TEST_F(ThreeDoors, RefuseRecipesThatMakeNothing) {
 
 TEST_F(ThreeDoors, RefuseFiles) {
   std::filesystem::create_directory("folder.obj");
-  folder().write("mesh.stl", "solid\n");
+  folder().write("mesh.dae", "solid\n");
   folder().write("empty.obj", "");
   folder().write("no_faces.obj", "v 0 0 0\n");
   const auto read = [](const std::string& file) -> Words { return {"info", file}; };
@@ -1080,18 +1080,18 @@ TEST_F(ThreeDoors, RefuseFiles) {
        read("folder.obj"),
        "sublimit.read('folder.obj')",
        {before_it_begins("it is a directory; name a file in it (MESH is a control mesh")}},
-      {"another extension", format_error, [&] { (void)read_mesh("mesh.stl"); }, read("mesh.stl"),
-       "sublimit.read('mesh.stl')"},
+      {"another extension", format_error, [&] { (void)read_mesh("mesh.dae"); }, read("mesh.dae"),
+       "sublimit.read('mesh.dae')"},
       {"an empty file", format_error, [&] { (void)read_mesh("empty.obj"); }, read("empty.obj"),
        "sublimit.read('empty.obj')"},
       {"a file without faces", invalid_mesh, [&] { (void)read_mesh("no_faces.obj"); }, read("no_faces.obj"),
        "sublimit.read('no_faces.obj')"},
       {"another extension, to write",
        invalid_option,
-       [&] { write_mesh("mesh.stl", cube()); },
-       written("mesh.stl"),
-       "cube.write('mesh.stl')",
-       {before_it_begins("cannot write mesh.stl: its name must end in .obj or .ply")}},
+       [&] { write_mesh("mesh.dae", cube()); },
+       written("mesh.dae"),
+       "cube.write('mesh.dae')",
+       {before_it_begins("cannot write mesh.dae: its name must end in .obj or .ply or .off or .stl")}},
       {"a place that there is not, to write",
        io_error,
        [&] { write_mesh("none/mesh.obj", cube()); },

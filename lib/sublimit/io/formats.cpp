@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/off.h"
 #include "sublimit/io/detail/ply.h"
 #include "sublimit/io/detail/polygon_files.h"
+#include "sublimit/io/detail/stl.h"
 #include "sublimit/mesh/detail/attributes.h"
 
 namespace sublimit {
@@ -66,10 +68,7 @@ bool begins_obj(const FileStart& start) {
   return std::ranges::find(words, start.word) != words.end();
 }
 
-bool begins_off(const FileStart& start) {
-  constexpr std::array<std::string_view, 8> words{"OFF", "COFF", "NOFF", "STOFF", "CNOFF", "4OFF", "nOFF", "STNOFF"};
-  return std::ranges::find(words, start.word) != words.end();
-}
+bool begins_off(const FileStart& start) { return parse_off_keyword(start.word).has_value(); }
 
 std::vector<FileFormat> rows() {
   using enum MeshField;
@@ -94,10 +93,28 @@ std::vector<FileFormat> rows() {
        .begins = [](const FileStart& start) { return start.word == "ply"; },
        .reads = {{meshes}, {mesh_parts, "binary .ply"}, {contents::vertex_values}},
        .writes = {{meshes}, {mesh_parts}, {contents::vertex_values}},
-       .holds = {MeshField::vertex_normals, texture, face_ids, vertex_colours, MeshField::vertex_values, comments},
+       .holds = {face_varying, MeshField::vertex_normals, texture, face_ids, vertex_colours, MeshField::vertex_values,
+                 face_colours, face_values, comments},
+       .keeps = {face_varying, vertex_colours, MeshField::vertex_values, face_colours, face_values},
+       .texture_columns = 2,
        .read_mesh = read_ply,
        .write_mesh = write_ply},
-      {.name = "an OFF file", .extensions = {".off"}, .begins = begins_off, .reads = {{meshes}}, .read_mesh = read_off},
+      {.name = "an OFF file",
+       .extensions = {".off"},
+       .begins = begins_off,
+       .reads = {{meshes}},
+       .writes = {{meshes}},
+       .holds = {vertex_colours, face_colours},
+       .keeps = {vertex_colours, face_colours},
+       .read_mesh = read_off,
+       .write_mesh = write_off},
+      {.name = "an STL file",
+       .extensions = {".stl"},
+       .begins = [](const FileStart& start) { return start.word == "solid" || is_binary_stl(start.bytes); },
+       .reads = {{meshes}},
+       .writes = {{meshes}},
+       .read_mesh = read_stl,
+       .write_mesh = write_stl},
       {.name = "a CSV file",
        .extensions = {".csv"},
        .begins = begins_csv,
@@ -217,7 +234,7 @@ const FileFormat* FileFormats::find(const std::filesystem::path& path) const {
 }
 
 const FileFormat* FileFormats::reader(const std::filesystem::path& path, Content content) const {
-  const FileFormat* const format = find(path);
+  const FileFormat* const format = find(content.compressed ? without_gz(path) : path);
   return format && find_ability(format->reads, content) ? format : nullptr;
 }
 
@@ -264,7 +281,12 @@ std::string FileFormats::writers_in_words(const std::vector<Content>& wanted, st
 
 std::vector<MeshField> left_out(const FileFormat& format, const Mesh& mesh) {
   std::vector<MeshField> fields = fields_of(mesh);
-  std::erase_if(fields, [&](MeshField field) { return std::ranges::find(format.holds, field) != format.holds.end(); });
+  std::erase_if(fields, [&](MeshField field) {
+    if (field == MeshField::face_varying && format.texture_columns > 0 &&
+        (mesh.face_varying.size() > 1 || mesh.face_varying[0].values.cols() != format.texture_columns))
+      return false;
+    return std::ranges::find(format.holds, field) != format.holds.end();
+  });
   return fields;
 }
 

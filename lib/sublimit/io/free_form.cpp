@@ -8,9 +8,9 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
-#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/free_form_checks.h"
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/io/detail/free_form_counts.h"
 #include "sublimit/io/detail/obj_indices.h"
 #include "sublimit/io/detail/obj_keywords.h"
@@ -445,7 +445,7 @@ FreeForm read_free_form(const std::filesystem::path& path) {
     check_memory(path.string() + ": " + bytes_in_words(size) + " of curves and surfaces", 7 * size,
                  "put them into several files");
   }
-  return parse_free_form(read_file(path), path.string());
+  return parse_free_form(read_inflated(path), path.string());
 }
 
 FreeForm parse_free_form(std::string_view text, std::string_view name) {

@@ -9,6 +9,7 @@
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/formats.h"
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/mesh/detail/check_mesh.h"
 
 namespace sublimit {
@@ -138,7 +139,7 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
     return format->write_mesh(path, mesh, progress);
   throw InvalidOption(path.string() + ": meshes are written as " +
                       io_formats().writers_in_words({contents::meshes}, "or") + ", not as '" + file_extension(path) +
-                      "'");
+                      "'" + (without_gz(path) == path ? "" : "; compressed files are read, not written"));
 }
 
 }  // namespace sublimit

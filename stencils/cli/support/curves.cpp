@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "sublimit/base/detail/read_file.h"
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/curves/limit_curve.h"
@@ -114,7 +114,7 @@ Index unit_tangents(const CurveLevel& level, const std::vector<CurvePlace>& plac
 void refuse_polygon(const Common& common) {
   bool polygon = all_formats().reads(common.mesh, contents::polygons);
   if (polygon && all_formats().reads(common.mesh, contents::meshes)) {
-    const std::string text = read_file(common.mesh);
+    const std::string text = read_inflated(common.mesh);
     const auto has = [&](const char* start) {
       return text.starts_with(start + 1) || text.find(start) != std::string::npos;
     };

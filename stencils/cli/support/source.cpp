@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "sublimit/base/detail/memory.h"
-#include "sublimit/base/detail/read_file.h"
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/base/error.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
@@ -70,7 +70,7 @@ bool has_free_form(const std::string& path) {
     return false;
   if (const auto size = static_cast<double>(std::filesystem::file_size(path, ignored)); !ignored)
     check_memory(path + ": " + bytes_in_words(size) + " of text", size, "put it into several files");
-  const std::string text = read_file(path);
+  const std::string text = read_inflated(path);
   for (const std::string_view keyword : {"curv", "surf"})
     for (size_t at = text.find(keyword); at != std::string::npos; at = text.find(keyword, at + 1)) {
       const size_t before = text.find_last_not_of(" \t", at == 0 ? std::string::npos : at - 1);

@@ -117,8 +117,8 @@ std::string plain_ply(const Mesh& mesh) {
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions.rows()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
   if (mesh.normals.rows() > 0) bytes += "property double nx\nproperty double ny\nproperty double nz\n";
-  bytes += "element face " + std::to_string(mesh.face_sizes.size()) +
-           "\nproperty list uchar int vertex_indices\nend_header\n";
+  bytes += "element face " + std::to_string(mesh.face_sizes.size()) + "\nproperty list uchar int vertex_indices\n" +
+           (mesh.face_varying.empty() ? "" : "property list uchar float texcoord\n") + "end_header\n";
   const auto number = [&](auto value) {
     for (std::size_t i = 0; i < sizeof value; ++i) bytes += static_cast<char>(value >> 8 * i & 255);
   };
@@ -128,7 +128,13 @@ std::string plain_ply(const Mesh& mesh) {
   std::size_t corner = 0;
   for (const Index size : mesh.face_sizes) {
     bytes += static_cast<char>(size);
-    for (Index i = 0; i < size; ++i) number(std::uint32_t(mesh.face_vertices[corner++]));
+    for (Index i = 0; i < size; ++i) number(std::uint32_t(mesh.face_vertices[corner + size_t(i)]));
+    if (!mesh.face_varying.empty()) bytes += static_cast<char>(2 * size);
+    for (Index i = 0; i < size && !mesh.face_varying.empty(); ++i)
+      for (Index k = 0; k < 2; ++k)
+        number(std::bit_cast<std::uint32_t>(
+            float(mesh.face_varying[0].values(mesh.face_varying[0].indices[corner + size_t(i)], k))));
+    corner += size_t(size);
   }
   return bytes;
 }
@@ -141,8 +147,7 @@ TEST(WriteMesh, BytesAreThoseOfAPlainWriterForAnyNumberOfThreads) {
     for (int parts = 0; parts < 3; ++parts) {
       if (parts == 1) mesh.normals = random_output(std::uint64_t(rows) + 1, rows, 1).positions;
       if (parts == 2) {
-        mesh.face_varying = {
-            {"uv", random_output(7, 5, 1).positions.leftCols(2), std::vector<Index>(mesh.face_vertices.size(), 3)}};
+        mesh.face_varying = {{"uv", Points::Random(5, 2), std::vector<Index>(mesh.face_vertices.size(), 3)}};
         for (Index i = 0; i < rows; ++i) mesh.creases.push_back({i, 0, float(i) / 7});
       }
       const std::string obj = plain_obj(mesh), ply = plain_ply(mesh);
@@ -286,7 +291,7 @@ TEST(WriteMesh, ObjHasRoomForOneChannelOfThreeColumns) {
   expect_error<InvalidParameter>([&] { format_obj(mesh); }, {"one face-varying channel"});
   mesh.face_varying.pop_back();
   EXPECT_EQ(parse_obj(format_obj(mesh), "a.obj").face_varying.size(), 1u);
-  EXPECT_EQ(format_ply(mesh).find("uv"), std::string::npos);
+  EXPECT_NE(format_ply(mesh).find("property list uchar float texcoord\n"), std::string::npos);
 }
 
 TEST(WriteMesh, ArraysThatDoNotFitAreRefused) {
@@ -359,8 +364,8 @@ TEST(WriteMesh, PlacesThatCannotBeWrittenAreNamed) {
   const TemporaryDirectory directory;
   directory.write("file", "");
   const Mesh mesh = random_output(11, 10, 4);
-  for (const char* const name : {"a.stl", "a", "a.off"}) {
-    expect_error<InvalidOption>([&] { write_mesh(directory / name, mesh); }, {name, "as .obj or .ply"});
+  for (const char* const name : {"a.dae", "a", "a.obj.gz"}) {
+    expect_error<InvalidOption>([&] { write_mesh(directory / name, mesh); }, {name, "as .obj, .ply, .off or .stl"});
   }
   expect_error<IoError>([&] { write_mesh(directory / "no/a.obj", mesh); }, {"no/a.obj: cannot write"});
   expect_error<IoError>([&] { write_mesh(directory / "file/a.ply", mesh); }, {"file/a.ply: cannot write"});
@@ -402,10 +407,10 @@ TEST(ReadMesh, ChoosesByExtensionInEitherCase) {
 
 TEST(ReadMesh, SaysWhatItCannotRead) {
   const TemporaryDirectory directory;
-  directory.write("a.stl", "solid");
-  expect_error<FormatError>([&] { read_mesh(directory / "a.stl"); },
-                            {"a.stl: unknown kind of mesh '.stl'", ".obj, .ply and .off"});
-  expect_error<IoError>([&] { read_mesh(directory / "b.stl"); }, {"b.stl: cannot read", "No such file"});
+  directory.write("a.dae", "solid");
+  expect_error<FormatError>([&] { read_mesh(directory / "a.dae"); },
+                            {"a.dae: unknown kind of mesh '.dae'", ".obj, .ply, .off and .stl"});
+  expect_error<IoError>([&] { read_mesh(directory / "b.dae"); }, {"b.dae: cannot read", "No such file"});
   expect_error<IoError>([&] { read_mesh(directory.path()); }, {"Is a directory"});
 }
 

@@ -211,6 +211,7 @@ TEST(Sidecar, IsFoundNextToTheMesh) {
   const std::filesystem::path path = directory.write("strip.json", R"({"holeIndices": [0]})");
   EXPECT_EQ(find_sidecar(directory / "strip.obj"), path);
   EXPECT_EQ(find_sidecar(directory / "strip.ply"), path);
+  EXPECT_EQ(find_sidecar(directory / "strip.obj.gz"), path);
   EXPECT_FALSE(find_sidecar(directory / "other.obj"));
   EXPECT_FALSE(find_sidecar(path));
   Mesh mesh = strip();

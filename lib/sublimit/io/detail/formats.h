@@ -5,7 +5,7 @@
 // choice of both, lists in messages and checks of names come from the table.
 //
 //   if (const FileFormat* format = io_formats().reader(path, contents::meshes)) return format->read_mesh(path);
-//   io_formats().readers({contents::meshes})  // ".obj", ".ply", ".off"
+//   io_formats().readers({contents::meshes})  // ".obj", ".ply", ".off", ".stl"
 //
 // Formats of `lib` are in formats.cpp; the offline part adds its own (stencils/formats/formats.h).
 #include <cstdint>
@@ -24,20 +24,21 @@ namespace sublimit {
 
 /// Something that files hold and that a reader or writer is for.
 struct Content {
-  std::string_view name;  ///< in the plural
+  std::string_view name;    ///< in the plural
+  bool compressed = false;  ///< files may be compressed (gzip)
   friend bool operator==(const Content&, const Content&) = default;
 };
 
 namespace contents {
-inline constexpr Content meshes{"meshes"};                         ///< read_mesh, write_mesh
-inline constexpr Content mesh_parts{"parts of meshes"};            ///< any part of a file alone, for many processes
-inline constexpr Content vertex_values{"values at vertices"};      ///< `Mesh::vertex_values`, read by their names
-inline constexpr Content vertex_normals{"normals of vertices"};    ///< read_obj_normals
-inline constexpr Content polygons{"polygons"};                     ///< read_polygon, write_polygon
-inline constexpr Content tangents{"polygons with tangents"};       ///< polygons, with tangents and in any dimension
-inline constexpr Content free_form{"free-form curves, surfaces"};  ///< read_free_form, write_free_form
-inline constexpr Content rows{"rows of numbers"};                  ///< lines of numbers below a header
-inline constexpr Content cad{"CAD files"};                         ///< boundary models: faces with shared edges
+inline constexpr Content meshes{"meshes", true};                       ///< read_mesh, write_mesh
+inline constexpr Content mesh_parts{"parts of meshes"};                ///< any part of a file alone, for many processes
+inline constexpr Content vertex_values{"values at vertices", true};    ///< `Mesh::vertex_values`, read by their names
+inline constexpr Content vertex_normals{"normals of vertices", true};  ///< read_obj_normals
+inline constexpr Content polygons{"polygons", true};                   ///< read_polygon, write_polygon
+inline constexpr Content tangents{"polygons with tangents", true};     ///< polygons, with tangents and in any dimension
+inline constexpr Content free_form{"free-form curves, surfaces", true};  ///< read_free_form, write_free_form
+inline constexpr Content rows{"rows of numbers"};                        ///< lines of numbers below a header
+inline constexpr Content cad{"CAD files"};                               ///< boundary models: faces with shared edges
 inline constexpr Content step{"STEP files"};  ///< of CAD files those of ISO 10303, which have names
 }  // namespace contents
 
@@ -48,7 +49,7 @@ enum class MeshField {
   knot_intervals,
   holes,
   rules,         ///< boundary, creasing, triangles, face-varying interpolation
-  face_varying,  ///< one channel of 1 to 3 columns
+  face_varying,  ///< one channel of 1 to 3 columns, or of `texture_columns`
   groups,
   objects,
   materials,
@@ -90,6 +91,7 @@ struct FileFormat {
   std::vector<Ability> reads = {}, writes = {};
   std::vector<MeshField> holds = {};  ///< fields of a mesh that files hold; others are left out or refused
   std::vector<MeshField> keeps = {};  ///< of these, fields that `read_mesh` returns as they were written
+  int texture_columns = 0;            ///< columns that a face-varying channel must have; 0: 1 to 3
 
   /// Reader and writer of meshes; null if there is none.
   Mesh (*read_mesh)(const std::filesystem::path&) = nullptr;
@@ -109,7 +111,8 @@ class FileFormats {
   /// Returns the format of a path; null if its extension is unknown.
   const FileFormat* find(const std::filesystem::path& path) const;
 
-  /// Returns the format of a path if it has a reader of the content; null otherwise.
+  /// Returns the format of a path if it has a reader of the content; null otherwise. Files that may be compressed have
+  /// the format of their name without `.gz`.
   const FileFormat* reader(const std::filesystem::path& path, Content content) const;
   /// Returns the format of a path if it has a writer of the content; null otherwise.
   const FileFormat* writer(const std::filesystem::path& path, Content content) const;

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/obj_calls.h"
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/io/detail/obj_indices.h"
 #include "sublimit/io/detail/obj_keywords.h"
 #include "sublimit/io/detail/obj_names.h"
@@ -270,7 +270,7 @@ class ObjReader {
 }  // namespace
 
 Mesh read_obj(const std::filesystem::path& path) {
-  std::string text = read_file(path);
+  std::string text = read_inflated(path);
   require_text(text, path.string(), "OBJ");
   CalledText called = with_called_files(std::move(text), path);
   return ObjReader(called.text, path.string(), {}, std::move(called.origins)).read(std::move(called.warnings));

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "sublimit/base/detail/memory.h"
-#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/io/detail/obj_names.h"
 
 namespace sublimit {
@@ -70,7 +70,7 @@ class Caller {
     if (std::ranges::find(open_, fs::weakly_canonical(path)) != open_.end())
       throw FormatError(place + "call of " + in_quotes(name) +
                         ", which is being read: files call each other in a circle");
-    const std::string text = read_file(path);
+    const std::string text = read_inflated(path);
     require_text(text, path.string(), "OBJ");
     check_memory(path.string() + " and the files that call it", 2.0 * double(result_.text.size() + text.size()),
                  "call fewer files");

@@ -13,6 +13,7 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/mesh/detail/edge_lookup.h"
 #include "sublimit/stencils/json/json_object.h"
 
@@ -213,7 +214,7 @@ bool is_report(const std::filesystem::path& path) {
 }  // namespace
 
 std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& mesh) {
-  std::filesystem::path path = mesh;
+  std::filesystem::path path = without_gz(mesh);
   path.replace_extension(".json");
   std::error_code error;
   if (path == mesh || !std::filesystem::is_regular_file(path, error) || is_report(path)) return std::nullopt;
