@@ -203,7 +203,8 @@ void check_output_path(const std::string& path, const std::vector<std::string>& 
   std::string names;
   for (const std::string& known : extensions) names += (names.empty() ? "" : " or ") + known;
   if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
-    throw InvalidOption("cannot write " + path + ": its name must end in " + names);
+    throw InvalidOption("cannot write " + path + ": its name must end in " + names +
+                        (extension.ends_with(".gz") ? "; compressed files are read, not written" : ""));
   const bool exists = std::filesystem::exists(path, ignored);
   if (exists && ::access(path.c_str(), W_OK) != 0)
     throw IoError("cannot write " + path + ": the file that is there is not writable");
