@@ -42,6 +42,17 @@ def tagged() -> sublimit.Mesh:
     return sublimit.Mesh(points, faces, creases={(6, 7): 2.5, (7, 8): 10}, corners={12: 1.25}, holes=[9], uv=points[:, :2])
 
 
+@pytest.fixture
+def dressed(tagged: sublimit.Mesh) -> sublimit.Mesh:
+    """The same, with colours, materials and smoothing groups."""
+    colours = np.random.default_rng(5).random((3, len(tagged.points))).astype(np.float32)
+    num_faces = len(tagged.faces[0])
+    return sublimit.Mesh(tagged.points, tagged.faces, creases=tagged.creases, corners=tagged.corners, holes=tagged.holes, uv=tagged.uv,
+                         uv_faces=tagged.uv_faces, vertex_values=dict(zip(("red", "green", "blue"), colours)),
+                         materials=[f"m{face % 3}" for face in range(num_faces)], material_files=["all.mtl"],
+                         smoothing_groups=[str(1 + face // 5) for face in range(num_faces)])
+
+
 @pytest.fixture(scope="session")
 def program() -> Callable[..., str]:
     """Runs the program; what it prints."""

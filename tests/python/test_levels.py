@@ -41,14 +41,17 @@ def test_refined_meshes_are_the_programs(scheme: str, program: Program, tmp_path
 
 @pytest.mark.parametrize("options", [
     dict(), dict(boundary="edge-only"), dict(creasing="chaikin"), dict(triangles="smooth"), dict(no_creases=True),
-    dict(face_varying="boundaries"), dict(no_tags=True), dict(triangulate=True), dict(threads=1)])
-def test_options_are_the_programs(options: dict[str, object], tagged: sublimit.Mesh, program: Program,
+    dict(face_varying="boundaries"), dict(no_tags=True), dict(triangulate=True), dict(threads=1), dict(boundary="fixed"),
+    dict(attributes="linear"), dict(attributes="drop"), dict(orient=True), dict(crease_angle=30),
+    dict(crease_smoothing_groups=True)])
+def test_options_are_the_programs(options: dict[str, object], dressed: sublimit.Mesh, tagged: sublimit.Mesh, program: Program,
                                   tmp_path: pathlib.Path) -> None:
-    tagged.write(tmp_path / "in.obj")
+    mesh = tagged if "no_tags" in options else dressed
+    mesh.write(tmp_path / "in.obj")
     words = [word for name, value in options.items()
              for word in (["--" + name.replace("_", "-")] + ([] if value is True else [value]))]
     program("refine", tmp_path / "in.obj", "-s", "catmull-clark", "-l", 2, "-o", tmp_path / "out.obj", *words)
-    fine = sublimit.refine(tagged, "catmull-clark", levels=2, **options)  # type: ignore[arg-type]
+    fine = sublimit.refine(mesh, "catmull-clark", levels=2, **options)  # type: ignore[arg-type]
     fine.write(tmp_path / "ours.obj")
     assert (tmp_path / "ours.obj").read_bytes() == (tmp_path / "out.obj").read_bytes()
 

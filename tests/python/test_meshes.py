@@ -2,6 +2,7 @@
 """Meshes: what they take in whatever form, what they refuse in which words, and that nothing is copied on the way out."""
 from __future__ import annotations
 
+import copy
 import gc
 import inspect
 import pathlib
@@ -19,12 +20,17 @@ SQUARE = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
 
 def parts(mesh: sublimit.Mesh) -> list[Any]:
     return [mesh.points, *mesh.faces, *mesh.creases, *mesh.corners, mesh.holes, mesh.uv, mesh.uv_faces, mesh.normals, mesh.face_normals,
-            mesh.face_ids]
+            mesh.face_ids, *mesh.vertex_values.values(), *mesh.face_values.values()]
+
+
+def words(mesh: sublimit.Mesh) -> list[Any]:
+    return [mesh.boundary, mesh.face_names, mesh.groups, mesh.objects, mesh.materials, mesh.smoothing_groups, mesh.material_files,
+            [(name, array.dtype) for values in (mesh.vertex_values, mesh.face_values) for name, array in values.items()]]
 
 
 def same(a: sublimit.Mesh, b: sublimit.Mesh) -> bool:
     alike = all(x is None if y is None else x is not None and np.array_equal(x, y) for x, y in zip(parts(a), parts(b)))
-    return alike and a.boundary == b.boundary and a.face_names == b.face_names
+    return alike and words(a) == words(b)
 
 
 @pytest.mark.parametrize("dtype", [np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64])
@@ -85,10 +91,13 @@ def with_every_tag() -> list[sublimit.Mesh]:
     """Meshes with all tags, some of them, and none; one tag of a kind, two, and as many as columns."""
     everything: dict[str, Any] = dict(creases={(0, 1): 2.5, (1, 2): np.inf, (2, 3): 10}, corners={3: 1.5, 0: np.inf},
                                       holes=[1], boundary="edge-only", uv=np.arange(8).reshape(4, 2), normals=np.eye(4, 3),
-                                      face_ids=[7, 5], face_names=["left", ""])
+                                      face_ids=[7, 5], groups=["left", ""], objects=["", "M\udcfcller"], materials=["a b", "a b"],
+                                      smoothing_groups=["1", "off"], material_files=["first.mtl", "second file.mtl"],
+                                      vertex_values={"red": np.array([0, 255, 7, 1], np.uint8), "heat": [0, 0.5, np.inf, 1]},
+                                      face_values={"part": np.array([-3, 70000], np.int32), "area": [0.25, 0.1]})
     meshes = [sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]], **everything)]
-    meshes += [sublimit.Mesh(SQUARE, [[0, 1, 2, 3], [0, 1, 2]][:1], **{name: value})
-               for name, value in everything.items() if name not in ("holes", "face_ids", "face_names")]
+    meshes += [sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]], **{name: value}) for name, value in everything.items() if name != "uv"]
+    meshes.append(sublimit.Mesh(SQUARE, [[0, 1, 2, 3]], uv=everything["uv"]))
     meshes += [sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]], normals=np.eye(3), face_normals=[[0, 1, 2], [2, -1, 0]]),
                sublimit.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]], normals=np.eye(6, 3))]
     for count in range(5):
@@ -102,8 +111,9 @@ def test_is_made_of_its_own_attributes(mesh: sublimit.Mesh) -> None:
     """Whatever the constructor takes is an attribute, and it takes it as that."""
     names = [name for name in inspect.signature(sublimit.Mesh.__init__).parameters if name != "self"]
     assert {"points", "faces", "creases", "corners", "holes", "boundary", "uv", "uv_faces", "normals", "face_normals", "face_ids",
-            "face_names"} == set(names)
-    everything: dict[str, Any] = {name: getattr(mesh, name) for name in names}
+            "face_names", "groups", "objects", "materials", "smoothing_groups", "material_files", "vertex_values",
+            "face_values"} == set(names)
+    everything: dict[str, Any] = {name: getattr(mesh, name) for name in names if name != "face_names"}  # groups again
     again = sublimit.Mesh(**everything)
     assert same(again, mesh)
     if len(mesh.faces[0]) > 0 and len(set(mesh.faces[0])) == 1:
@@ -122,7 +132,7 @@ def test_meshes_that_are_made_are_made_again(made: str, tagged: sublimit.Mesh, t
         "tessellated": lambda: sublimit.tessellate(tagged, "catmull-clark", chord=0.05, normals=True),
         "fitted": lambda: sublimit.fit(tagged, "catmull-clark", [3], tagged.points[3:4]).mesh}
     mesh = meshes[made]()
-    names = [name for name in inspect.signature(sublimit.Mesh.__init__).parameters if name != "self"]
+    names = [name for name in inspect.signature(sublimit.Mesh.__init__).parameters if name not in ("self", "face_names")]
     assert same(sublimit.Mesh(**{name: getattr(mesh, name) for name in names}), mesh)
 
 
@@ -173,7 +183,9 @@ def test_names_of_faces(tmp_path: pathlib.Path) -> None:
                                         b"g \xc3\xbc\nf 2 4 3\n")
     mesh = sublimit.read(tmp_path / "mesh.obj")
     assert mesh.face_names == ["", "M\udcfcller", "\u00fc"]
+    assert mesh.groups == ["", "", "\u00fc"] and mesh.objects == ["", "M\udcfcller", "M\udcfcller"]
     again = sublimit.Mesh(mesh.points, mesh.faces, face_names=mesh.face_names)
+    assert again.groups == mesh.face_names and again.objects is None
     assert again.face_names == pickle.loads(pickle.dumps(again)).face_names == mesh.face_names
 
 
@@ -248,6 +260,11 @@ SEVERAL_COLUMNS = np.zeros((4, 4))
     (dict(face_ids=[1, 2]), r"face_ids has shape \(2,\); \(1 faces,\)"),
     (dict(face_ids=[0.5]), "face_ids has dtype float64"),
     (dict(face_names=["a", "b"]), "face_names has 2 names; 1 are right"),
+    (dict(materials=["a", "b"]), "materials has 2 names; 1 are right"),
+    (dict(face_names=["a"], groups=["a"]), "face_names is another name of groups"),
+    (dict(vertex_values={"red": [1, 2]}), r"vertex_values\['red'\] has shape \(2,\); \(4 vertices,\) is right"),
+    (dict(face_values={"part": np.eye(1)}), r"face_values\['part'\] has shape \(1, 1\); \(1 faces,\) is right"),
+    (dict(vertex_values={"red": ["a"] * 4}), r"vertex_values\['red'\] has dtype <U1; real numbers"),
 ])
 def test_refuses_in_clear_words(given: dict[str, Any], words: str) -> None:
     arguments: dict[str, Any] = {"points": SQUARE, "faces": [[0, 1, 2, 3]], **given}
@@ -280,15 +297,21 @@ def test_files_and_back(tagged: sublimit.Mesh, tmp_path: pathlib.Path) -> None:
     tagged.write(str(tmp_path / "mesh.ply"))
     assert np.array_equal(sublimit.read(tmp_path / "mesh.ply").points, tagged.points)
     with pytest.raises(sublimit.InvalidOption, match="obj"):
-        tagged.write(tmp_path / "mesh.stl")
+        tagged.write(tmp_path / "mesh.dae")
     with pytest.raises(sublimit.IoError):
         tagged.write(tmp_path / "nowhere" / "mesh.obj")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["mesh.obj", "mesh.ply"]
 
 
 def test_pickles(tagged: sublimit.Mesh) -> None:
-    copy = pickle.loads(pickle.dumps(tagged))
-    assert same(copy, tagged) and copy.points.ctypes.data != tagged.points.ctypes.data
+    again = pickle.loads(pickle.dumps(tagged))
+    assert same(again, tagged) and again.points.ctypes.data != tagged.points.ctypes.data
+
+
+@pytest.mark.parametrize("mesh", with_every_tag())
+def test_pickles_and_copies_keep_everything(mesh: sublimit.Mesh) -> None:
+    for again in (pickle.loads(pickle.dumps(mesh)), copy.copy(mesh), copy.deepcopy(mesh)):
+        assert same(again, mesh)
 
 
 def test_pickles_keep_every_tag_of_a_file(tmp_path: pathlib.Path) -> None:
@@ -307,17 +330,24 @@ def test_pickles_keep_every_tag_of_a_file(tmp_path: pathlib.Path) -> None:
 
 def test_pickles_keep_what_files_of_triangles_have(tagged: sublimit.Mesh, tmp_path: pathlib.Path) -> None:
     near = sublimit.tessellate(tagged, "catmull-clark", chord=0.05, normals=True)
-    copy = pickle.loads(pickle.dumps(near))
-    assert same(copy, near) and copy.face_ids is not None and copy.normals is not None
+    again = pickle.loads(pickle.dumps(near))
+    assert same(again, near) and again.face_ids is not None and again.normals is not None
     near.write(tmp_path / "first.obj")
-    copy.write(tmp_path / "second.obj")
+    again.write(tmp_path / "second.obj")
     assert (tmp_path / "first.obj").read_bytes() == (tmp_path / "second.obj").read_bytes()
 
 
-@pytest.mark.parametrize("names, words", [("left", "face_names is one word"), ([1], r"face_names\[0\] is a int"), ([None], "NoneType")])
-def test_refuses_names_of_faces(names: Any, words: str) -> None:
+@pytest.mark.parametrize("names, words", [("left", "is one word"), ([1], r"\[0\] is a int"), ([None], "NoneType")])
+@pytest.mark.parametrize("kind", ["face_names", "groups", "objects", "materials", "smoothing_groups", "material_files"])
+def test_refuses_names_of_faces(kind: str, names: Any, words: str) -> None:
+    with pytest.raises(TypeError, match=f"{kind}.*{words}"):
+        sublimit.Mesh(SQUARE, [[0, 1, 2, 3]], **{kind: names})
+
+
+@pytest.mark.parametrize("values, words", [([1, 2, 3, 4], "vertex_values is a list; a mapping"), ({1: [0] * 4}, "a name that is a int")])
+def test_refuses_values_without_names(values: Any, words: str) -> None:
     with pytest.raises(TypeError, match=words):
-        sublimit.Mesh(SQUARE, [[0, 1, 2, 3]], face_names=names)
+        sublimit.Mesh(SQUARE, [[0, 1, 2, 3]], vertex_values=values)
 
 
 def test_says_what_is_no_manifold() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -107,6 +108,10 @@ def test_cad_files_are_the_programs(cube: sublimit.Mesh, program: Program, tmp_p
         assert written.met is report["tolerance_met"] is True and written.is_valid is report["valid"] is True
     assert sublimit.step(surface, str(tmp_path / "cube.step")).solids == 1
     assert (tmp_path / "cube.step").read_text().startswith("ISO-10303-21")
+    for unit, written_as in (("mm", "SI_UNIT(.MILLI.,.METRE.)"), ("m", "SI_UNIT($,.METRE.)"), ("inch", "'INCH'")):
+        sublimit.step(surface, tmp_path / "cube.step", unit=unit)
+        text = (tmp_path / "cube.step").read_text()
+        assert re.search(r"SI_UNIT\([^)]*METRE\.\)|'INCH'", text)[0] == written_as  # type: ignore[index]
 
 
 @pytest.mark.usefixtures("opencascade")
@@ -147,6 +152,8 @@ def test_patches_as_cad_files(tmp_path: pathlib.Path) -> None:
     (dict(tolerance=float("nan")), sublimit.InvalidParameter, "tolerance is nan"),
     (dict(tolerance="a"), ValueError, "could not convert"),
     (dict(surface=None), TypeError, "surface is a NoneType; a sublimit.LimitSurface or sublimit.Patches is right"),
+    (dict(unit="foot"), sublimit.InvalidOption, "unit is 'foot'; 'mm', 'm' or 'inch' are right"),
+    (dict(path="cube.brep", unit="m"), sublimit.InvalidOption, "only STEP files have a unit of length"),
     (dict(face_names="left"), TypeError, "face_names is one word"),
     (dict(face_names=[1] * 6), TypeError, r"face_names\[0\] is a int")])
 def test_refuses_cad_files(arguments: dict[str, Any], error: type[Exception], words: str, cube: sublimit.Mesh,

@@ -3,20 +3,24 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "arrays.h"
 #include "calls.h"
 #include "face_names.h"
+#include "mesh_values.h"
 #include "module.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
+#include "sublimit/mesh/detail/check_mesh.h"
 #include "sublimit/mesh/sharpness.h"
 #include "sublimit/stencils/formats/rule_of_word.h"
 #include "sublimit/stencils/formats/sidecar.h"
@@ -27,8 +31,9 @@ namespace sublimit::python {
 namespace {
 
 /// What every scheme would refuse.
-/// @throws InvalidMesh  faces or tags that name what there is not
+/// @throws InvalidMesh  faces or tags that name what there is not; names or values of some faces or vertices alone
 void check(const Mesh& mesh) {
+  check_attributes(mesh);
   const Topology topology(view(mesh));
   initial_sharpness(topology, mesh, Boundary::edge_and_corner, Creasing::uniform);
   initial_holes(topology, mesh, Boundary::edge_and_corner);
@@ -40,10 +45,13 @@ using Tags = std::pair<Array<Index>, Array<float>>;
 /// Values, and which of them each corner has; of normals -1 for none, and no indices if they are of vertices.
 using Channel = std::optional<std::pair<Array<double>, Array<Index>>>;
 
+/// What a mesh carries: groups, objects, materials and smoothing groups of faces; files of materials; values of
+/// vertices and of faces.
+using Carried = std::tuple<std::array<std::vector<std::string>, 4>, std::vector<std::string>, ValueRows, ValueRows>;
+
 Mesh made(const Array<double>& positions, const Array<Index>& sizes, const Array<Index>& corners, const Tags& creases,
           const Tags& sharp_vertices, const Array<Index>& holes, const std::optional<std::string>& boundary,
-          const Channel& uv, const Channel& normals, const Array<Index>& face_ids,
-          const std::vector<std::string>& names) {
+          const Channel& uv, const Channel& normals, const Array<Index>& face_ids, const Carried& carried) {
   Mesh mesh;
   mesh.positions = points(positions);
   mesh.face_sizes = vector(sizes);
@@ -64,7 +72,14 @@ Mesh made(const Array<double>& positions, const Array<Index>& sizes, const Array
     mesh.face_normals = vector(normals->second);
   }
   mesh.face_ids = vector(face_ids);
-  mesh.face_names = face_names(names);
+  const auto& [names, material_files, vertex_values, face_values] = carried;
+  mesh.groups = face_names(names[0]);
+  mesh.objects = face_names(names[1]);
+  mesh.materials = face_names(names[2]);
+  mesh.smoothing_groups = face_names(names[3]);
+  mesh.material_files = material_files;
+  mesh.vertex_values = mesh_values(vertex_values);
+  mesh.face_values = mesh_values(face_values);
   const LongCall scope;
   check(mesh);
   return mesh;
@@ -98,6 +113,26 @@ py::list channels(const py::object& self) {
   return all;
 }
 
+/// Values of vertices or of faces.
+py::list values(const py::object& self, std::vector<Mesh::Values> Mesh::*of) {
+  return value_rows(self.cast<const Mesh&>().*of, [&](const auto& numbers) { return view(numbers, self); });
+}
+
+/// Texts of a file, which need not be UTF-8.
+py::list bytes(const std::vector<std::string>& texts) {
+  py::list all;
+  for (const std::string& text : texts) all.append(py::bytes(text));
+  return all;
+}
+
+py::tuple carried(const Mesh& mesh) {
+  const auto copy = [](const std::vector<double>& numbers) { return array(std::vector<double>(numbers)); };
+  return py::make_tuple(py::make_tuple(names_by_face(mesh.groups), names_by_face(mesh.objects),
+                                       names_by_face(mesh.materials), names_by_face(mesh.smoothing_groups)),
+                        bytes(mesh.material_files), value_rows(mesh.vertex_values, copy),
+                        value_rows(mesh.face_values, copy));
+}
+
 template <class Rule>
 std::optional<int> number(const std::optional<Rule>& rule) {
   return rule ? std::optional(int(*rule)) : std::nullopt;
@@ -109,15 +144,12 @@ std::optional<Rule> rule(const py::handle& number) {
 
 /// All that a mesh has, for pickles.
 py::tuple state(const Mesh& mesh) {
-  py::list channels, knots, vertex_values, comments;
+  py::list channels, knots;
   for (const Mesh::FaceVarying& channel : mesh.face_varying)
     channels.append(
         py::make_tuple(channel.name, array(Points(channel.values)), array(std::vector<Index>(channel.indices))));
   for (const Mesh::KnotInterval& knot : mesh.knot_intervals)
     knots.append(py::make_tuple(knot.tail, knot.head, knot.length));
-  for (const Mesh::VertexValues& one : mesh.vertex_values)
-    vertex_values.append(py::make_tuple(py::bytes(one.name), array(std::vector<double>(one.values)), one.whole));
-  for (const std::string& comment : mesh.comments) comments.append(py::bytes(comment));
   py::dict all;
   all["points"] = array(Points(mesh.positions));
   all["sizes"] = array(std::vector<Index>(mesh.face_sizes));
@@ -128,13 +160,12 @@ py::tuple state(const Mesh& mesh) {
   all["channels"] = channels;
   all["knots"] = knots;
   all["rules"] = py::make_tuple(number(mesh.boundary), number(mesh.creasing), number(mesh.triangles),
-                                number(mesh.face_varying_interpolation));
+                                number(mesh.face_varying_interpolation), number(mesh.attributes));
   all["normals"] = py::make_tuple(array(Points(mesh.normals)), array(std::vector<Index>(mesh.face_normals)));
   all["texture"] = array(Points(mesh.texture));
   all["face_ids"] = array(std::vector<Index>(mesh.face_ids));
-  all["face_names"] = names_by_face(mesh.face_names);
-  all["vertex_values"] = vertex_values;
-  all["comments"] = comments;
+  all["carried"] = carried(mesh);
+  all["comments"] = bytes(mesh.comments);
   all["warnings"] = mesh.warnings;
   return py::make_tuple(all);
 }
@@ -143,8 +174,7 @@ Mesh from_state(const py::tuple& state) {
   const auto whole_numbers = [&](const char* name) { return all[name].cast<Array<Index>>(); };
   Mesh mesh = made(all["points"].cast<Array<double>>(), whole_numbers("sizes"), whole_numbers("corners"),
                    all["creases"].cast<Tags>(), all["sharp_vertices"].cast<Tags>(), whole_numbers("holes"), {}, {},
-                   all["normals"].cast<Channel>(), whole_numbers("face_ids"),
-                   all["face_names"].cast<std::vector<std::string>>());
+                   all["normals"].cast<Channel>(), whole_numbers("face_ids"), all["carried"].cast<Carried>());
   for (const py::handle one : all["channels"].cast<py::list>()) {
     const auto channel = one.cast<py::tuple>();
     mesh.face_varying.push_back({channel[0].cast<std::string>(), points(channel[1].cast<Array<double>>()),
@@ -159,12 +189,8 @@ Mesh from_state(const py::tuple& state) {
   mesh.creasing = rule<Creasing>(rules[1]);
   mesh.triangles = rule<Triangles>(rules[2]);
   mesh.face_varying_interpolation = rule<FaceVaryingInterpolation>(rules[3]);
+  mesh.attributes = rule<Attributes>(rules[4]);
   mesh.texture = points(all["texture"].cast<Array<double>>());
-  for (const py::handle one : all["vertex_values"].cast<py::list>()) {
-    const auto values = one.cast<py::tuple>();
-    mesh.vertex_values.push_back(
-        {values[0].cast<std::string>(), vector(values[1].cast<Array<double>>()), values[2].cast<bool>()});
-  }
   mesh.comments = all["comments"].cast<std::vector<std::string>>();
   mesh.warnings = all["warnings"].cast<std::vector<std::string>>();
   return mesh;
@@ -179,10 +205,14 @@ std::vector<std::string> warnings(const Mesh& mesh, const MeshRequest& request) 
   return all;
 }
 
-/// The file with the tags that lie beside it.
-Mesh read(const std::filesystem::path& path) {
+/// The mesh of a file with the tags of a sidecar.
+/// @param sidecar  its path, "none", or empty: the one that lies beside the file, if there is one
+Mesh read(const std::filesystem::path& path, const std::filesystem::path& sidecar) {
   Mesh mesh = read_mesh(path);
-  if (const auto sidecar = find_sidecar(path)) apply_sidecar(mesh, *sidecar);
+  if (!sidecar.empty() && sidecar != "none")
+    apply_sidecar(mesh, sidecar);
+  else if (const auto found = sidecar.empty() ? find_sidecar(path) : std::nullopt)
+    apply_sidecar(mesh, *found);
   return mesh;
 }
 
@@ -190,10 +220,11 @@ Mesh read(const std::filesystem::path& path) {
 
 void add_meshes(py::module_& m) {
   const py::call_guard<LongCall> long_call;
+  m.attr("value_types") = py::tuple(py::cast(std::vector<std::string>(value_types.begin(), value_types.end())));
   py::class_<Mesh, std::shared_ptr<Mesh>>(m, "Mesh")
       .def(py::init(&made), py::arg("points"), py::arg("sizes"), py::arg("corners"), py::arg("creases"),
            py::arg("sharp_vertices"), py::arg("holes"), py::arg("boundary"), py::arg("uv"), py::arg("normals"),
-           py::arg("face_ids"), py::arg("face_names"))
+           py::arg("face_ids"), py::arg("carried"))
       .def_property_readonly("points",
                              [](const py::object& self) { return view(self.cast<const Mesh&>().positions, self); })
       .def_property_readonly("sizes",
@@ -214,7 +245,14 @@ void add_meshes(py::module_& m) {
                              [](const py::object& self) { return view(self.cast<const Mesh&>().face_normals, self); })
       .def_property_readonly("face_ids",
                              [](const py::object& self) { return view(self.cast<const Mesh&>().face_ids, self); })
-      .def_property_readonly("face_names", [](const Mesh& mesh) { return names_by_face(mesh.face_names); })
+      .def_property_readonly("face_names", [](const Mesh& mesh) { return names_by_face(mesh.face_names()); })
+      .def_property_readonly("groups", [](const Mesh& mesh) { return names_by_face(mesh.groups); })
+      .def_property_readonly("objects", [](const Mesh& mesh) { return names_by_face(mesh.objects); })
+      .def_property_readonly("materials", [](const Mesh& mesh) { return names_by_face(mesh.materials); })
+      .def_property_readonly("smoothing_groups", [](const Mesh& mesh) { return names_by_face(mesh.smoothing_groups); })
+      .def_property_readonly("material_files", [](const Mesh& mesh) { return bytes(mesh.material_files); })
+      .def_property_readonly("vertex_values", [](const py::object& self) { return values(self, &Mesh::vertex_values); })
+      .def_property_readonly("face_values", [](const py::object& self) { return values(self, &Mesh::face_values); })
       .def_property_readonly("warnings", [](const Mesh& mesh) { return mesh.warnings; })
       .def(py::pickle(&state, &from_state))
       .def(
@@ -237,7 +275,7 @@ void add_meshes(py::module_& m) {
       },
       py::arg("mesh"), py::arg("request"), py::arg("name"), py::arg("limit"), long_call);
   m.def("warnings", &warnings, py::arg("mesh"), py::arg("request"), long_call);
-  m.def("read", &read, py::arg("path"), long_call);
+  m.def("read", &read, py::arg("path"), py::arg("sidecar"), long_call);
 }
 
 }  // namespace sublimit::python

@@ -66,13 +66,25 @@ StepJoin step_join(const std::string& word) {
   return word == "g1" ? StepJoin::g1 : StepJoin::g0;
 }
 
+/// @throws InvalidOption  another word
+LengthUnit length_unit(const std::string& word) {
+  if (word == "mm") return LengthUnit::mm;
+  if (word == "m") return LengthUnit::m;
+  if (word == "inch") return LengthUnit::inch;
+  throw InvalidOption("unit is '" + word + "'; 'mm', 'm' or 'inch' are right");
+}
+
 template <class Surface>
 py::dict step_of(const Surface& surface, const std::filesystem::path& path, std::optional<double> tolerance,
-                 const std::string& join, bool pack, const std::vector<std::string>& names, int threads) {
+                 const std::string& join, bool pack, const std::string& unit, const std::vector<std::string>& names,
+                 int threads) {
   const StepFile written = without_gil([&] {
     const Threads held(threads);
-    const StepOptions options{
-        .tolerance = tolerance, .join = step_join(join), .pack = pack, .face_names = face_names(names)};
+    const StepOptions options{.tolerance = tolerance,
+                              .join = step_join(join),
+                              .pack = pack,
+                              .unit = length_unit(unit),
+                              .face_names = face_names(names)};
     check_step(path, options);
     return write_step(surface, path, options, loaded_cad_file());
   });
@@ -92,9 +104,9 @@ void add_step(py::module_& m, const Of& of) {
   m.def(
       "step",
       [of](const Source& source, const std::filesystem::path& path, std::optional<double> tolerance,
-           const std::string& join, bool pack, const std::vector<std::string>& names,
-           int threads) { return step_of(of(source), path, tolerance, join, pack, names, threads); },
-      py::arg("surface"), py::arg("path"), py::arg("tolerance"), py::arg("join"), py::arg("pack"),
+           const std::string& join, bool pack, const std::string& unit, const std::vector<std::string>& names,
+           int threads) { return step_of(of(source), path, tolerance, join, pack, unit, names, threads); },
+      py::arg("surface"), py::arg("path"), py::arg("tolerance"), py::arg("join"), py::arg("pack"), py::arg("unit"),
       py::arg("face_names"), py::arg("threads"));
 }
 

@@ -65,7 +65,8 @@ class FittedPoints:
 def fit(mesh: Mesh, scheme: Scheme | str, vertices: npt.ArrayLike, points: npt.ArrayLike, normals: npt.ArrayLike | None = None,
         *, thin_plate: float = 0, membrane: float = 0, refinements: tuple[int, int] = (0, 2), boundary: str | None = None,
         creasing: str | None = None, triangles: str | None = None, option: Mapping[str, OptionValue] | None = None,
-        triangulate: bool = False, no_creases: bool = False, strict: bool = False, threads: int = 0) -> Fit:
+        triangulate: bool = False, no_creases: bool = False, orient: bool = False, crease_angle: float | None = None,
+        crease_smoothing_groups: bool = False, strict: bool = False, threads: int = 0) -> Fit:
     """Computes a mesh whose limit has given positions and normals at given vertices.
 
     Boundary, creasing and the other keyword arguments that are not listed are those of `refine`.
@@ -104,7 +105,8 @@ def fit(mesh: Mesh, scheme: Scheme | str, vertices: npt.ArrayLike, points: npt.A
     (True, True)
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases, strict=strict)
+                    no_creases=no_creases, orient=orient, crease_angle=crease_angle,
+                    crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     numbers = arrays.ints(vertices, "vertices", (None,), "(targets,)")
     where = arrays.floats(points, "points", (len(numbers), 3), f"({len(numbers)} targets, 3)")
     along = None if normals is None else arrays.floats(normals, "normals", (len(numbers), 3), f"({len(numbers)} targets, 3)",
@@ -120,7 +122,8 @@ def fit_places(mesh: Mesh, scheme: Scheme | str, face: npt.ArrayLike, u: npt.Arr
                *, weights: npt.ArrayLike | None = None, thin_plate: float = 0, membrane: float = 0,
                pins: npt.ArrayLike | None = None, boundary: str | None = None, creasing: str | None = None,
                triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-               no_creases: bool = False, strict: bool = False, threads: int = 0) -> FittedPoints:
+               no_creases: bool = False, orient: bool = False, crease_angle: float | None = None,
+               crease_smoothing_groups: bool = False, strict: bool = False, threads: int = 0) -> FittedPoints:
     """Computes control points whose limit is as near as possible to given points at given places, by least squares.
 
     Boundary, creasing and the other keyword arguments that are not listed are those of `refine`.
@@ -146,7 +149,8 @@ def fit_places(mesh: Mesh, scheme: Scheme | str, face: npt.ArrayLike, u: npt.Arr
         More memory than there is.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases, strict=strict)
+                    no_creases=no_creases, orient=orient, crease_angle=crease_angle,
+                    crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     faces, at_u, at_v, _ = places(face, u, v)
     count = len(faces)
     parts = _sublimit.fit_places(
@@ -160,7 +164,8 @@ def fit_cloud(mesh: Mesh, scheme: Scheme | str, points: npt.ArrayLike, *, weight
               thin_plate: float = 0, membrane: float = 0, schedule: Sequence[float] = (), pins: npt.ArrayLike | None = None,
               iterations: int = 50, tolerance: float = 1e-6, boundary: str | None = None, creasing: str | None = None,
               triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-              no_creases: bool = False, strict: bool = False, threads: int = 0) -> FittedPoints:
+              no_creases: bool = False, orient: bool = False, crease_angle: float | None = None,
+              crease_smoothing_groups: bool = False, strict: bool = False, threads: int = 0) -> FittedPoints:
     """Computes control points whose limit is near a cloud of points, by repeated projection and least squares.
 
     Boundary, creasing and the other keyword arguments that are not listed are those of `refine`.
@@ -187,7 +192,8 @@ def fit_cloud(mesh: Mesh, scheme: Scheme | str, points: npt.ArrayLike, *, weight
         No face that is not a hole, or the scheme cannot refine the mesh; the message says where.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases, strict=strict)
+                    no_creases=no_creases, orient=orient, crease_angle=crease_angle,
+                    crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     cloud = arrays.floats(points, "points", (None, 3), "(n, 3)")
     parts = _sublimit.fit_cloud(
         core_of(mesh), asked, cloud, _weights(weights, len(cloud)), _sublimit.Fairness(thin_plate, membrane), list(schedule),

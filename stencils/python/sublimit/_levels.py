@@ -20,28 +20,38 @@ if TYPE_CHECKING:
 
 
 def refine(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str | None = None, creasing: str | None = None,
-           triangles: str | None = None, face_varying: str | None = None, option: Mapping[str, OptionValue] | None = None,
-           triangulate: bool = False, no_creases: bool = False, strict: bool = False, no_tags: bool = False,
-           threads: int = 0, quiet: bool = False) -> Mesh:
+           triangles: str | None = None, face_varying: str | None = None, attributes: str | None = None,
+           option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
+           orient: bool = False, crease_angle: float | None = None, crease_smoothing_groups: bool = False,
+           strict: bool = False, no_tags: bool = False, threads: int = 0, quiet: bool = False) -> Mesh:
     """Returns a level of a mesh, with its texture coordinates, and with the creases, corners and holes that are left on it.
 
-    Refining the result continues the refinement.
+    Refining the result continues the refinement. Faces have the names and values of the faces that they come from.
 
     Parameters
     ----------
     mesh : the control mesh
     scheme : name of a scheme, as in `schemes`, or a `Scheme`
     levels : number of refinements, 0 or more (default: 1)
-    boundary : rule for the boundary: ``"none"``, ``"edge-only"`` or ``"edge-and-corner"`` (default: the rule of the mesh, else
-        edge-and-corner)
+    boundary : rule for the boundary: ``"none"``, ``"edge-only"``, ``"edge-and-corner"`` or ``"fixed"`` (default: the rule of the
+        mesh, else edge-and-corner)
+        ``"fixed"``: vertices of the boundary are infinitely sharp corners, so that it stays the polygon that it is.
     creasing : decay of the sharpness of creases: ``"uniform"`` or ``"chaikin"`` (default: the rule of the mesh, else uniform)
     triangles : weights of Catmull-Clark next to triangles: ``"catmark"`` or ``"smooth"`` (default: the rule of the mesh, else
         catmark)
     face_varying : where texture coordinates are linear, by OpenSubdiv's names (default: the rule of the mesh, else ``"all"``)
+    attributes : rule for colours and other values of vertices (default: ``"smooth"``)
+        ``"smooth"``: they are refined as points are; ``"linear"``: they are interpolated linearly in faces and along edges;
+        ``"drop"``: they are left out, and so are names and values of faces.
     option : options of the scheme, {name: value}
     triangulate : first cut every face into triangles, a fan from its first corner; tags are kept
     no_creases : first drop the crease and corner tags
-    strict : raise InvalidMesh if the mesh is not a clean manifold
+    orient : first turn faces so that winding is consistent, as few as possible
+    crease_angle : first make edges infinitely sharp where the faces beside them bend by more degrees than this, 0 to 180; tags
+        of the mesh win (default: none)
+    crease_smoothing_groups : first make edges between faces of different `Mesh.smoothing_groups` infinitely sharp; tags of the
+        mesh win
+    strict : raise InvalidMesh if the mesh is not a clean manifold, or has `Mesh.warnings`
     no_tags : leave the tags out of the result
     threads : largest number of threads (default: all)
     quiet : issue no `MeshWarning`
@@ -49,18 +59,21 @@ def refine(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str |
     Raises
     ------
     InvalidOption
-        An unknown scheme, option or word, or a value of an option outside its range.
+        An unknown scheme, option or word, or a value of an option outside its range; linear attributes of a scheme that does
+        not keep vertices and edges.
     InvalidParameter
         Negative levels.
     InvalidMesh
-        With `strict`, a mesh that is not a clean manifold; the message names each place.
+        With `strict`, a mesh that is not a clean manifold, or has warnings; the message names each place. With
+        `crease_smoothing_groups`, a mesh without smoothing groups.
     UnsupportedTopology
         A face or a crease that the scheme cannot take; the message says where.
     ResourceError
         Not enough memory, predicted before it is taken.
     """
-    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, face_varying=face_varying, option=option,
-                    triangulate=triangulate, no_creases=no_creases, strict=strict)
+    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, face_varying=face_varying,
+                    attributes=attributes, option=option, triangulate=triangulate, no_creases=no_creases, orient=orient,
+                    crease_angle=crease_angle, crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     fine = Mesh._of(_sublimit.refine(core_of(mesh), asked, levels, not no_tags, threads))
     if not quiet:
         warn_of(mesh, asked, fine.warnings)
@@ -92,7 +105,8 @@ class Level:
 
 def levels(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str | None = None, creasing: str | None = None,
            triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-           no_creases: bool = False, strict: bool = False, threads: int = 0) -> list[Level]:
+           no_creases: bool = False, orient: bool = False, crease_angle: float | None = None,
+           crease_smoothing_groups: bool = False, strict: bool = False, threads: int = 0) -> list[Level]:
     """Returns levels 0 to `levels` of a mesh, each with the matrix that makes its points from those of the previous level.
 
     Parameters and errors are those of `refine`. `subdivision_matrix` returns the product of the matrices.
@@ -108,7 +122,8 @@ def levels(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str |
     (25, 3)
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases, strict=strict)
+                    no_creases=no_creases, orient=orient, crease_angle=crease_angle,
+                    crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     made = _sublimit.levels(core_of(mesh), asked, operator.index(levels), threads)
     warn_of(mesh, asked)
     return [Level(parts["number"], csr(parts["S"]), (parts["sizes"], parts["corners"]), parts["holes"]) for parts in made]
@@ -117,6 +132,7 @@ def levels(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str |
 def subdivision_matrix(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, boundary: str | None = None,
                        creasing: str | None = None, triangles: str | None = None,
                        option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
+                       orient: bool = False, crease_angle: float | None = None, crease_smoothing_groups: bool = False,
                        strict: bool = False, threads: int = 0) -> csr_array:
     """Returns the matrix that makes the points of a level from the control points.
 
@@ -128,7 +144,8 @@ def subdivision_matrix(mesh: Mesh, scheme: Scheme | str, levels: int = 1, *, bou
         Its arrays are memory of the library, not copies.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases, strict=strict)
+                    no_creases=no_creases, orient=orient, crease_angle=crease_angle,
+                    crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     made = _sublimit.subdivision_matrix(core_of(mesh), asked, levels, threads)
     warn_of(mesh, asked)
     return csr(made)
@@ -181,7 +198,8 @@ class Limit:
 
 def limit(mesh: Mesh, scheme: Scheme | str, levels: int = 0, *, boundary: str | None = None, creasing: str | None = None,
           triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-          no_creases: bool = False, strict: bool = False, threads: int = 0) -> Limit:
+          no_creases: bool = False, orient: bool = False, crease_angle: float | None = None,
+          crease_smoothing_groups: bool = False, strict: bool = False, threads: int = 0) -> Limit:
     """Computes exact limit positions, tangents and normals of the vertices of a level.
 
     Parameters and errors are those of `refine`, but for these.
@@ -196,7 +214,8 @@ def limit(mesh: Mesh, scheme: Scheme | str, levels: int = 0, *, boundary: str | 
         The scheme cannot refine the mesh, or does not converge at a vertex; the message says which.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases, strict=strict)
+                    no_creases=no_creases, orient=orient, crease_angle=crease_angle,
+                    crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     made = _sublimit.limit(core_of(mesh), asked, operator.index(levels), threads)
     warn_of(mesh, asked)
     return Limit(made)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ Points = npt.ArrayLike
 
 
 class Mesh:
-    """A mesh: points, faces of any size, and tags. It never changes.
+    """A mesh: points, faces of any size, tags, and what vertices and faces carry. It never changes.
 
     Parameters
     ----------
@@ -43,17 +43,25 @@ class Mesh:
         files; schemes ignore them.
     face_normals : number of the normal in `normals` for each corner, -1 for none, in the form of `uv_faces`, optional
     face_ids : (faces,), a number for each face, optional
-    face_names : list of str, a name for each face, empty for none, optional
-        Names are groups in an .obj, and names of faces in a STEP file.
+    face_names : another name of `groups`, optional; as an attribute, the group of each face, else its object
+    groups, objects, materials, smoothing_groups : list of str, a name for each face, empty for none, optional
+        Lines ``g``, ``o``, ``usemtl`` and ``s`` of an .obj. Groups are names of faces in a STEP file, too.
+    material_files : list of str, files of the materials, optional
+        Lines ``mtllib`` of an .obj.
+    vertex_values : {name: (vertices,)}, real numbers, optional
+        Properties of vertices in a .ply. Colours are ``"red"``, ``"green"``, ``"blue"`` and ``"alpha"``: 0 to 255 if their type
+        is uint8, 0 to 1 otherwise; an .obj has colours too. Files keep integers of 8, 16 and 32 bits, float32 and float64; other
+        types become float64.
+    face_values : {name: (faces,)}, the same for faces, optional
 
     A mesh has all of these as attributes, in a form that the constructor accepts. `with_points` changes the points and keeps
-    the rest.
+    the rest. Refined meshes and triangles carry names and values on, as `refine` says.
 
     Raises
     ------
     InvalidMesh
         An array of another shape or type, NaN and infinite points, faces or tags that name vertices or faces that do not
-        exist, faces of two corners.
+        exist, faces of two corners, names or values that are not one for each face or vertex, both `groups` and `face_names`.
 
     Examples
     --------
@@ -65,6 +73,10 @@ class Mesh:
     (array([3], dtype=int32), array([0, 1, 2], dtype=int32))
     >>> sublimit.Mesh(2 * triangle.points, triangle.faces, corners=triangle.corners)
     <sublimit.Mesh: 3 vertices, 1 faces>
+    >>> hot = sublimit.Mesh(triangle.points, triangle.faces, materials=["iron"], vertex_values={"heat": [0, 2, 4]})
+    >>> fine = sublimit.refine(hot, "bilinear")
+    >>> fine.vertex_values["heat"], fine.materials
+    (array([0., 2., 4., 2., 1., 3., 2.]), ['iron', 'iron', 'iron'])
     """
 
     __module__ = "sublimit"
@@ -75,7 +87,11 @@ class Mesh:
                  corners: Mapping[int, float] | Iterable[Any] | None = None, holes: npt.ArrayLike | None = None,
                  boundary: str | None = None, uv: npt.ArrayLike | None = None, uv_faces: Any = None,
                  normals: npt.ArrayLike | None = None, face_normals: Any = None, face_ids: npt.ArrayLike | None = None,
-                 face_names: Iterable[str] | None = None) -> None:
+                 face_names: Iterable[str] | None = None, groups: Iterable[str] | None = None,
+                 objects: Iterable[str] | None = None, materials: Iterable[str] | None = None,
+                 smoothing_groups: Iterable[str] | None = None, material_files: Iterable[str] | None = None,
+                 vertex_values: Mapping[str, npt.ArrayLike] | None = None,
+                 face_values: Mapping[str, npt.ArrayLike] | None = None) -> None:
         try:
             positions = arrays.floats(points, "points", (None, 3), "(vertices, 3)")
             sizes, vertices = arrays.faces(faces)
@@ -83,6 +99,11 @@ class Mesh:
                 raise InvalidMesh("uv_faces says which values corners have, but there is no uv")
             if normals is None and face_normals is not None:
                 raise InvalidMesh("face_normals says which normals corners have, but there are no normals")
+            if groups is not None and face_names is not None:
+                raise InvalidMesh("face_names is another name of groups; give one of them")
+            names = ((groups, "groups") if face_names is None else (face_names, "face_names"), (objects, "objects"),
+                     (materials, "materials"), (smoothing_groups, "smoothing_groups"))
+            of_groups, of_objects, of_materials, of_smoothing = (names_of(given, len(sizes), name) for given, name in names)
             self._core = _sublimit.Mesh(
                 positions, sizes, vertices, _creases(creases), _corners(corners),
                 arrays.ints([] if holes is None else holes, "holes", (None,), "(holes,)"), boundary,
@@ -90,7 +111,9 @@ class Mesh:
                 None if normals is None else _normals(normals, face_normals, sizes, vertices, len(positions)),
                 arrays.ints([] if face_ids is None else face_ids, "face_ids", (None if face_ids is None else len(sizes),),
                             f"({len(sizes)} faces,)"),
-                names_of(face_names, len(sizes)))
+                ((of_groups, of_objects, of_materials, of_smoothing), names_of(material_files, None, "material_files"),
+                 _value_rows(vertex_values, "vertex_values", len(positions), "vertices"),
+                 _value_rows(face_values, "face_values", len(sizes), "faces")))
         except InvalidParameter as error:  # a constructor of meshes raises InvalidMesh for all that is wrong with one
             raise InvalidMesh(str(error)) from None
 
@@ -174,9 +197,46 @@ class Mesh:
 
     @property
     def face_names(self) -> list[str] | None:
-        """A name for each face, empty for none; None if no face has one. In an .obj it is the group, else the object."""
-        names = self._core.face_names
-        return [name.decode("utf-8", "surrogateescape") for name in names] if names else None
+        """A name for each face, its group or else its object, empty for none; None if no face has one."""
+        return _texts_or_none(self._core.face_names)
+
+    @property
+    def groups(self) -> list[str] | None:
+        """Group of each face, empty for none; None if no face has one."""
+        return _texts_or_none(self._core.groups)
+
+    @property
+    def objects(self) -> list[str] | None:
+        """Object of each face, empty for none; None if no face has one."""
+        return _texts_or_none(self._core.objects)
+
+    @property
+    def materials(self) -> list[str] | None:
+        """Material of each face, empty for none; None if no face has one."""
+        return _texts_or_none(self._core.materials)
+
+    @property
+    def smoothing_groups(self) -> list[str] | None:
+        """Smoothing group of each face, empty for none; None if no face has one."""
+        return _texts_or_none(self._core.smoothing_groups)
+
+    @property
+    def material_files(self) -> list[str]:
+        """Files of the materials; empty if there are none."""
+        return _texts(self._core.material_files)
+
+    @property
+    def vertex_values(self) -> dict[str, npt.NDArray[Any]]:
+        """Values of vertices, {name: (vertices,)}, each in the type that files keep. Read-only.
+
+        Values of integer types are rounded, as in files: those of a refined mesh are exact where the control mesh has floats.
+        """
+        return _values(self._core.vertex_values)
+
+    @property
+    def face_values(self) -> dict[str, npt.NDArray[Any]]:
+        """Values of faces, {name: (faces,)}, each in the type that files keep. Read-only."""
+        return _values(self._core.face_values)
 
     @property
     def warnings(self) -> list[str]:
@@ -287,7 +347,7 @@ class Mesh:
 
         Parameters
         ----------
-        path : path that ends in .obj, which holds the tags too, or .ply
+        path : path that ends in .obj, which holds the tags too, .ply, .off or .stl
 
         Raises
         ------
@@ -341,23 +401,24 @@ def info(mesh: Mesh, scheme: Scheme | str | None = None, *, limit: bool = False)
     return mesh.info(scheme, limit=limit)
 
 
-def read(path: str | os.PathLike[str]) -> Mesh:
-    """Reads a mesh from a file. Tags in a file PATH.json beside it override those of the file.
+def read(path: str | os.PathLike[str], *, sidecar: str | os.PathLike[str] | None = None) -> Mesh:
+    """Reads a mesh from a file, and tags from a JSON file beside it, which override those of the mesh's own file.
 
     Parameters
     ----------
-    path : path that ends in .obj, which may have tags, .ply or .off
+    path : path that ends in .obj, which may have tags, .ply, .off or .stl, each also compressed as .gz
+    sidecar : path of the JSON file, or ``"none"`` (default: the path with the extension .json, if that file has tags)
 
     Raises
     ------
     FormatError
-        The file cannot be parsed; the message starts with file:line.
+        A file cannot be parsed; the message starts with file:line, or has the key.
     InvalidMesh
         Faces or tags name vertices, edges or faces that do not exist.
     IoError
-        The file is missing, a directory or unreadable.
+        A file is missing, a directory or unreadable.
     """
-    return Mesh._of(_sublimit.read(os.fspath(path)))
+    return Mesh._of(_sublimit.read(os.fspath(path), "" if sidecar is None else os.fspath(sidecar)))
 
 
 def tag_rows(values: Any, name: str, columns: int, words: str) -> arrays.Floats:
@@ -462,22 +523,73 @@ def _of_corners(values: Any, name: str, sizes: arrays.Ints, vertices: arrays.Int
     return indices
 
 
-def names_of(names: Iterable[str] | None, num_faces: int | None = None) -> list[bytes]:
-    """Returns names of faces as the compiled part takes them: bytes in UTF-8.
+def names_of(names: Iterable[str] | None, num_faces: int | None = None, argument: str = "face_names") -> list[bytes]:
+    """Returns names of faces, or of files, as the compiled part takes them: bytes in UTF-8.
 
     Parameters
     ----------
     names : a str for each face; None for no names
-    num_faces : required number of names; None if the compiled part checks it
+    num_faces : required number of names; None if any is right, or the compiled part checks it
+    argument : name of the argument, for messages
     """
     if names is None:
         return []
     if isinstance(names, (str, bytes)):
-        raise TypeError("face_names is one word; a list with a name for each face is right")
+        raise TypeError(f"{argument} is one word; a list of names is right")
     all_of_them = list(names)
     for i, name in enumerate(all_of_them):
         if not isinstance(name, str):
-            raise TypeError(f"face_names[{i}] is a {type(name).__name__}; a str is right, empty for none")
+            raise TypeError(f"{argument}[{i}] is a {type(name).__name__}; a str is right, empty for none")
     if num_faces is not None and len(all_of_them) != num_faces:
-        raise InvalidMesh(f"face_names has {len(all_of_them)} names; {num_faces} are right, one for each face")
+        raise InvalidMesh(f"{argument} has {len(all_of_them)} names; {num_faces} are right, one for each face")
     return [name.encode("utf-8", "surrogateescape") for name in all_of_them]
+
+
+def _texts(names: Sequence[bytes]) -> list[str]:
+    return [name.decode("utf-8", "surrogateescape") for name in names]
+
+
+def _texts_or_none(names: Sequence[bytes]) -> list[str] | None:
+    return _texts(names) if any(names) else None
+
+
+def _value_rows(values: Mapping[str, npt.ArrayLike] | None, argument: str, count: int,
+                what: str) -> list[tuple[bytes, arrays.Floats, str]]:
+    """Returns values as the compiled part takes them: name, numbers, and the type that files have.
+
+    Raises
+    ------
+    TypeError
+        No mapping, or a name that is no str.
+    InvalidParameter
+        An array of another shape or type.
+    """
+    if values is None:
+        return []
+    if not isinstance(values, Mapping):
+        raise TypeError(f"{argument} is a {type(values).__name__}; a mapping {{name: ({what},)}} is right")
+    rows = []
+    for name, numbers in values.items():
+        if not isinstance(name, str):
+            raise TypeError(f"{argument} has a name that is a {type(name).__name__}; a str is right")
+        array = arrays.any_array(numbers, f"{argument}[{name!r}]")
+        kind = array.dtype.name if array.dtype.name in _sublimit.value_types else "float64"
+        rows.append((name.encode("utf-8", "surrogateescape"),
+                     arrays.floats(array, f"{argument}[{name!r}]", (count,), f"({count} {what},)", finite=False), kind))
+    return rows
+
+
+def _values(rows: Sequence[tuple[bytes, arrays.Floats, str]]) -> dict[str, npt.NDArray[Any]]:
+    """Returns values by name as read-only arrays of the types that files have, rounded as in files."""
+    values: dict[str, npt.NDArray[Any]] = {}
+    for name, numbers, kind in rows:
+        array: npt.NDArray[Any] = numbers
+        dtype = np.dtype(kind)
+        if dtype.kind in "iu":
+            array = np.clip(np.rint(array), np.iinfo(dtype).min, np.iinfo(dtype).max).astype(dtype)
+        elif dtype != array.dtype:
+            with np.errstate(over="ignore"):
+                array = array.astype(dtype)
+        array.setflags(write=False)
+        values[name.decode("utf-8", "surrogateescape")] = array
+    return values

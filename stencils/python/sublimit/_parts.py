@@ -97,11 +97,12 @@ def implicit(field: Recipe, scheme: Scheme | str = "catmull-clark", *, cells: in
 
 
 def step(surface: LimitSurface | Patches, path: str | os.PathLike[str], *, tolerance: float | None = None,
-         join: str = "g0", pack: bool = True, face_names: Iterable[str] | None = None, threads: int = 0) -> StepFile:
+         join: str = "g0", pack: bool = True, unit: str = "mm", face_names: Iterable[str] | None = None,
+         threads: int = 0) -> StepFile:
     """Writes a surface for CAD programs: exact B-spline faces with shared edges, solids where it is closed.
 
-    A limit surface is written without its holes. `Patches` are written as one face for each patch; for them only `tolerance`
-    matters.
+    A limit surface is written without its holes. `Patches` are written as one face for each patch; for them only `tolerance` and
+    `unit` matter.
 
     Parameters
     ----------
@@ -113,6 +114,7 @@ def step(surface: LimitSurface | Patches, path: str | os.PathLike[str], *, toler
     join : how caps meet their neighbours: ``"g0"``, at the same points, or ``"g1"``, with the same tangent planes too, which
         needs a scheme of quadrilaterals (default: ``"g0"``)
     pack : join regular faces to the largest B-splines that keep knots and smoothness (default: True)
+    unit : unit of the coordinates, written into STEP files: ``"mm"``, ``"m"`` or ``"inch"`` (default: ``"mm"``). Numbers stay.
     face_names : a name for each face of the mesh, empty for none, such as `Mesh.face_names`; faces of different names are not
         packed (default: no names)
     threads : largest number of threads (default: all)
@@ -120,8 +122,8 @@ def step(surface: LimitSurface | Patches, path: str | os.PathLike[str], *, toler
     Raises
     ------
     InvalidOption
-        Another extension, or another word for `join`; or the library with OpenCASCADE is not installed: the message has its
-        package, and how to build it.
+        Another extension, another word for `join` or `unit`, or a .brep with another unit than mm; or the library with
+        OpenCASCADE is not installed: the message has its package, and how to build it.
     InvalidParameter
         A tolerance that is not positive, or names that are not one for each face.
     InvalidMesh
@@ -138,4 +140,4 @@ def step(surface: LimitSurface | Patches, path: str | os.PathLike[str], *, toler
     if not isinstance(surface, (LimitSurface, Patches)):
         raise TypeError(f"surface is a {type(surface).__name__}; a sublimit.LimitSurface or sublimit.Patches is right")
     return StepFile(**_sublimit.step(surface._core, os.fspath(path), None if tolerance is None else float(tolerance),
-                                     join, bool(pack), names_of(face_names), threads))
+                                     join, bool(pack), unit, names_of(face_names), threads))

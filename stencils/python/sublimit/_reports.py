@@ -101,6 +101,7 @@ def analyze(scheme: Scheme | str, valences: Iterable[int] = range(3, 13), *, cla
 def analyze_mesh(mesh: Mesh, scheme: Scheme | str, *, tolerance: Mapping[str, object] | None = None, name: str = "mesh",
                  boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
                  option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
+                 orient: bool = False, crease_angle: float | None = None, crease_smoothing_groups: bool = False,
                  strict: bool = False, threads: int = 0) -> Report:
     """Returns a report on the limit of a mesh: how smooth it is at which points and why, measured on exact limits.
 
@@ -122,7 +123,8 @@ def analyze_mesh(mesh: Mesh, scheme: Scheme | str, *, tolerance: Mapping[str, ob
         The scheme cannot refine the mesh; the message says where.
     """
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases, strict=strict)
+                    no_creases=no_creases, orient=orient, crease_angle=crease_angle,
+                    crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     words = [f"{key}={value}" for key, value in (tolerance or {}).items()]
     report = Report(_sublimit.mesh_report(core_of(mesh), asked, words, name, threads))
     warn_of(mesh, asked)

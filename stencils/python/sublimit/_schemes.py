@@ -273,8 +273,9 @@ def curve_scheme(scheme: Scheme | str) -> NamedScheme:
 
 
 def request(scheme: Scheme | str, *, boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
-            face_varying: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-            no_creases: bool = False, strict: bool = False) -> _sublimit.MeshRequest:
+            face_varying: str | None = None, attributes: str | None = None, option: Mapping[str, OptionValue] | None = None,
+            triangulate: bool = False, no_creases: bool = False, orient: bool = False, crease_angle: float | None = None,
+            crease_smoothing_groups: bool = False, strict: bool = False) -> _sublimit.MeshRequest:
     """Returns scheme, rules and flags as a request to the compiled part. The parameters are those of `refine`."""
     own = as_scheme(scheme)
     asked = _sublimit.MeshRequest()
@@ -284,10 +285,14 @@ def request(scheme: Scheme | str, *, boundary: str | None = None, creasing: str 
         asked.options = {**dict(own.options), **asked.options}
     else:
         asked.use(own._masks())
-    words: dict[str, Any] = {"boundary": boundary, "creasing": creasing, "triangles": triangles, "face_varying": face_varying}
+    words: dict[str, Any] = {"boundary": boundary, "creasing": creasing, "triangles": triangles, "face_varying": face_varying,
+                             "attributes": attributes}
     for name, word in words.items():
         setattr(asked, name, word or "")
     asked.triangulate = triangulate
     asked.no_creases = no_creases
+    asked.orient = orient
+    asked.crease_angle = None if crease_angle is None else float(crease_angle)
+    asked.crease_smoothing_groups = crease_smoothing_groups
     asked.strict = strict
     return asked

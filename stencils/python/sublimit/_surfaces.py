@@ -402,9 +402,11 @@ class LimitSurface(Source):
 
     def __init__(self, mesh: Mesh, scheme: Scheme | str, *, boundary: str | None = None, creasing: str | None = None,
                  triangles: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
-                 no_creases: bool = False, strict: bool = False) -> None:
+                 no_creases: bool = False, orient: bool = False, crease_angle: float | None = None,
+                 crease_smoothing_groups: bool = False, strict: bool = False) -> None:
         asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option,
-                        triangulate=triangulate, no_creases=no_creases, strict=strict)
+                        triangulate=triangulate, no_creases=no_creases, orient=orient, crease_angle=crease_angle,
+                        crease_smoothing_groups=crease_smoothing_groups, strict=strict)
         self._core = _sublimit.Surface(core_of(mesh), asked)
         warn_of(mesh, asked)
 
@@ -577,15 +579,18 @@ def tessellate(mesh: LimitSurface | Patches, scheme: None = None, *, chord: floa
 @overload
 def tessellate(mesh: Mesh, scheme: Scheme | str, *, chord: float, angle: float = 0, max_triangles: int = 1 << 24,
                rates: Any = None, normals: bool = False, boundary: str | None = None, creasing: str | None = None,
-               triangles: str | None = None, face_varying: str | None = None, option: Mapping[str, OptionValue] | None = None,
-               triangulate: bool = False, no_creases: bool = False, strict: bool = False, threads: int = 0) -> Mesh: ...
+               triangles: str | None = None, face_varying: str | None = None, attributes: str | None = None,
+               option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
+               orient: bool = False, crease_angle: float | None = None, crease_smoothing_groups: bool = False,
+               strict: bool = False, threads: int = 0) -> Mesh: ...
 
 
 def tessellate(mesh: Mesh | LimitSurface | Patches, scheme: Scheme | str | None = None, *, chord: float, angle: float = 0,
                max_triangles: int = 1 << 24, rates: Any = None, normals: bool = False, boundary: str | None = None,
                creasing: str | None = None, triangles: str | None = None, face_varying: str | None = None,
-               option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
-               strict: bool = False, threads: int = 0) -> Mesh | Tessellation:
+               attributes: str | None = None, option: Mapping[str, OptionValue] | None = None, triangulate: bool = False,
+               no_creases: bool = False, orient: bool = False, crease_angle: float | None = None,
+               crease_smoothing_groups: bool = False, strict: bool = False, threads: int = 0) -> Mesh | Tessellation:
     """Returns triangles within a proved distance of a limit surface, without cracks, or of patches.
 
     The triangles are a `Mesh` if a mesh and a scheme are given, and a `Tessellation` if a `LimitSurface` or `Patches` are given.
@@ -600,8 +605,9 @@ def tessellate(mesh: Mesh | LimitSurface | Patches, scheme: Scheme | str | None 
     Returns
     -------
     Mesh or Tessellation
-        A `Mesh` has the texture coordinates of the control mesh, normals at corners if `normals` is set, and in `Mesh.face_ids`
-        the face of the control mesh that each triangle lies on. Holes are left out.
+        A `Mesh` has the texture coordinates of the control mesh, values of vertices by the rule `attributes`, normals at
+        corners if `normals` is set, and in `Mesh.face_ids` the face of the control mesh that each triangle lies on, whose names
+        and values it has. Holes are left out.
 
     Raises
     ------
@@ -636,8 +642,9 @@ def tessellate(mesh: Mesh | LimitSurface | Patches, scheme: Scheme | str | None 
     core = core_of(mesh)
     if scheme is None:
         raise TypeError("scheme is missing; a mesh has a limit under a scheme")
-    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, face_varying=face_varying, option=option,
-                    triangulate=triangulate, no_creases=no_creases, strict=strict)
+    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, face_varying=face_varying,
+                    attributes=attributes, option=option, triangulate=triangulate, no_creases=no_creases, orient=orient,
+                    crease_angle=crease_angle, crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     near = Mesh._of(_sublimit.tessellate(core, asked, float(chord), float(angle), operator.index(max_triangles), _rates(rates),
                                          bool(normals), threads))
     warn_of(mesh, asked, near.warnings)

@@ -355,7 +355,8 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
          derivatives: int = 0, precision: str = "float", order: bool = False,
          boundary: str | None = None, creasing: str | None = None, triangles: str | None = None,
          option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
-         strict: bool = False, threads: int = 0) -> Table:
+         orient: bool = False, crease_angle: float | None = None, crease_smoothing_groups: bool = False, strict: bool = False,
+         threads: int = 0) -> Table:
     """Bakes a table: weights over the control points for a connectivity and its tags. Positions do not matter.
 
     Give one of `levels`, `grid`, `at` and `tessellation`, which select the points. Boundary, creasing and the other keyword
@@ -400,7 +401,8 @@ def bake(mesh: Mesh, scheme: Scheme | str, levels: int | None = None, *, limit: 
     if tessellation is not None:
         options.set_triangles(tessellation.triangles)
     asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases, strict=strict)
+                    no_creases=no_creases, orient=orient, crease_angle=crease_angle,
+                    crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     baked = Table._of(_sublimit.bake(core_of(mesh), asked, options, threads))
     warn_of(mesh, asked)
     return baked
