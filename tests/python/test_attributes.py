@@ -107,6 +107,15 @@ def test_values_keep_their_types(tmp_path: pathlib.Path) -> None:
         assert value.dtype == np.float64 and np.array_equal(value, other)
 
 
+@pytest.mark.parametrize("given, words", [
+    (dict(groups=["a\nf 1 2 3"]), "a name of faces has a character"), (dict(material_files=["a\nb"]), "a file of materials has"),
+    (dict(vertex_values={name: [np.nan] * 4 for name in COLOURS}), "is nan; it should be finite")])
+def test_files_do_not_hold_everything(given: dict[str, Any], words: str, tmp_path: pathlib.Path) -> None:
+    mesh = sublimit.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]], **given)
+    with pytest.raises(sublimit.InvalidMesh if "vertex_values" in given else sublimit.InvalidParameter, match=words):
+        mesh.write(tmp_path / "mesh.obj")
+
+
 def test_colours_in_bytes(grid: sublimit.Mesh, tmp_path: pathlib.Path) -> None:
     """Those of a refined mesh are rounded in arrays, as they are in files."""
     given = {name: np.random.default_rng(k).integers(0, 256, len(grid.points)).astype(np.uint8) for k, name in enumerate(COLOURS)}

@@ -354,7 +354,9 @@ class Mesh:
         InvalidOption
             Another extension.
         InvalidParameter
-            Normals per corner, and a .ply.
+            Normals per corner, and a .ply; a name that the file cannot hold, such as one with a line end.
+        InvalidMesh
+            Values that are not finite.
         IoError
             The file cannot be written.
         ResourceError
