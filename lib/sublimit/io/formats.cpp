@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "sublimit/io/detail/gzip.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/off.h"
 #include "sublimit/io/detail/ply.h"

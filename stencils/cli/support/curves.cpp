@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include "sublimit/io/detail/gzip.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/curves/limit_curve.h"

@@ -28,8 +28,8 @@ FileKind file_kind(const std::string& path);
 /// Returns a kind as words for messages: "an OBJ file".
 std::string name_of(const FileKind& kind);
 
-/// Returns the kind of file that an argument or option takes: "a control mesh, .obj, .ply or .off"; empty if it does
-/// not name a file to read.
+/// Returns the kind of file that an argument or option takes: "a control mesh, .obj, .ply, .off or .stl"; empty if it
+/// does not name a file to read.
 std::string input_meaning(const CLI::App& command, const CLI::Option& option);
 
 /// Extensions of the files that an argument or option takes, without the dot; empty for any, or if it names none.

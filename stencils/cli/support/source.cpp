@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "sublimit/base/detail/memory.h"
-#include "sublimit/io/detail/gzip.h"
 #include "sublimit/base/error.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"

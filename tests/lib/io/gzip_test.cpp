@@ -15,7 +15,8 @@ namespace {
 
 std::string long_text() {
   std::string text;
-  for (int i = 0; i < 50000; ++i) text += "v " + std::to_string(i) + " 0 " + std::to_string(i * i % 1009) + "\n";
+  for (int i = 0; i < 50000; ++i)
+    text += "v " + std::to_string(i) + " 0 " + std::to_string(i % 1009 * (i % 1009)) + "\n";
   return text;
 }
 

@@ -16,7 +16,7 @@ inline std::string file_extension(const std::filesystem::path& path) {
     return extension;
   };
   const std::string extension = lower_case(path.extension().string());
-  return extension == ".gz" ? lower_case(path.stem().extension().string()) + extension : extension;
+  return extension.ends_with(".gz") ? lower_case(path.stem().extension().string()) + extension : extension;
 }
 
 }  // namespace sublimit

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "sublimit/io/detail/file_extension.h"
+#include "sublimit/io/detail/gzip.h"
 #include "sublimit/mesh/control_polygon.h"
 #include "sublimit/mesh/mesh.h"
 

@@ -13,8 +13,8 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
-#include "sublimit/io/detail/gzip.h"
 #include "sublimit/mesh/detail/edge_lookup.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/json/json_object.h"
 
 namespace sublimit {
