@@ -20,7 +20,6 @@
 #include "sublimit/base/error.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/io/write_mesh.h"
-#include "sublimit/mesh/detail/check_mesh.h"
 #include "sublimit/mesh/sharpness.h"
 #include "sublimit/stencils/formats/rule_of_word.h"
 #include "sublimit/stencils/formats/sidecar.h"
@@ -31,9 +30,8 @@ namespace sublimit::python {
 namespace {
 
 /// What every scheme would refuse.
-/// @throws InvalidMesh  faces or tags that name what there is not; names or values of some faces or vertices alone
+/// @throws InvalidMesh  faces or tags that name what there is not
 void check(const Mesh& mesh) {
-  check_attributes(mesh);
   const Topology topology(view(mesh));
   initial_sharpness(topology, mesh, Boundary::edge_and_corner, Creasing::uniform);
   initial_holes(topology, mesh, Boundary::edge_and_corner);

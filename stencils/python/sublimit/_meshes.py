@@ -356,7 +356,7 @@ class Mesh:
         InvalidParameter
             Normals per corner, and a .ply; a name that the file cannot hold, such as one with a line end.
         InvalidMesh
-            Values that are not finite.
+            Values that the file cannot hold, such as colours that are not finite and an .obj.
         IoError
             The file cannot be written.
         ResourceError
