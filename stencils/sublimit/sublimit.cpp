@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "sublimit/fit/detail/interpolate.h"
-#include "sublimit/mesh/detail/check_mesh.h"
+#include "sublimit/primvar/vertex_values.h"
 #include "sublimit/mesh/detail/points_in_space.h"
 #include "sublimit/stencils/bake/detail/bake.h"
 #include "sublimit/stencils/jobs/detail/mesh_job.h"
@@ -114,6 +114,8 @@ Fit fit(const Mesh& mesh, const AnyScheme& scheme, const std::vector<VertexTarge
   result.position_error = std::move(found.position_error);
   result.normal_error = std::move(found.normal_error);
   result.mesh = level_mesh(found.level, std::move(found.points), mesh);
+  if (carries_attributes(mesh))
+    carry_attributes(job_of(mesh, scheme), levels(mesh, scheme, result.refinements), result.mesh);
   return result;
 }
 

@@ -24,9 +24,9 @@ const MaySkip may_skip[] = {
     {"OpenSubdiv's regression shapes, meshes that fuzzing found and files that people reported are not ours to publish; a clone without "
      "../shared/meshes compares meshes of the tests' own",
      {"lib/every_ray_sweep_test.cpp", "lib/every_scheme_sweep_test.cpp", "lib/every_surface_sweep_test.cpp",
-      "lib/fit/shared_meshes_fit_test.cpp", "lib/fit/shared_meshes_polygons_test.cpp", "lib/io/reported_files_test.cpp",
-      "lib/primvar/opensubdiv_face_varying_test.cpp", "lib/shared_meshes_test.cpp",
-      "stencils/report/asset/asset_shared_meshes_test.cpp", "stencils/bake/bake_test.cpp",
+      "lib/fit/shared_meshes_fit_test.cpp", "lib/fit/shared_meshes_polygons_test.cpp",
+      "stencils/formats/reported_files_test.cpp", "lib/primvar/opensubdiv_face_varying_test.cpp",
+      "lib/shared_meshes_test.cpp", "stencils/report/asset/asset_shared_meshes_test.cpp", "stencils/bake/bake_test.cpp",
       "stencils/bake/one_origin_test.cpp", "stencils/cli/cli_found_limits_test.cpp", "stencils/cli/cli_found_test.cpp",
       "stencils/distributed/ranks_test.cpp", "stencils/gpu/baked_tables_test.cpp"}},
     {"a file system of 64 KB, mounted for one job, takes rights that containers may withhold",

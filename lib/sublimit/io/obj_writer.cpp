@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "sublimit/base/detail/format_number.h"
@@ -178,6 +179,12 @@ void emit_obj(const Mesh& mesh, RowWriter out) {
 
 void check_obj(const Mesh& mesh, const std::string& name) {
   check_output(mesh, name);
+  if (const auto colours = find_colours(mesh.vertex_values))
+    for (const Index k : *colours)
+      if (k >= 0 &&
+          !std::ranges::all_of(mesh.vertex_values[std::size_t(k)].values, [](double x) { return std::isfinite(x); }))
+        throw InvalidMesh(name +
+                          ": a colour of a vertex is infinite or not a number; write a .ply, or drop the values");
   if (mesh.face_varying.empty()) return;
   const Eigen::Index columns = mesh.face_varying[0].values.cols();
   if (mesh.face_varying.size() > 1 || columns < 1 || columns > 3)

@@ -10,6 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/formats.h"
 #include "sublimit/io/detail/gzip.h"
+#include "sublimit/mesh/detail/attributes.h"
 #include "sublimit/mesh/detail/check_mesh.h"
 
 namespace sublimit {
@@ -117,11 +118,13 @@ void check_output(const Mesh& mesh, const std::string& name) {
     for (const std::string& text : names->names) check_name(text, name, "name of faces");
   for (const std::string& text : mesh.material_files) check_name(text, name, "file of materials");
   for (const std::vector<Mesh::Values>* const values : {&mesh.vertex_values, &mesh.face_values})
-    for (const Mesh::Values& one : *values)
-      if (const auto bad = std::ranges::find_if(one.values, [](double x) { return !std::isfinite(x); });
-          bad != one.values.end())
+    for (const Mesh::Values& one : *values) {
+      if (one.type == ValueType::float32 || one.type == ValueType::float64) continue;
+      const auto bad = std::ranges::find_if(one.values, [](double x) { return std::isnan(x); });
+      if (bad != one.values.end())
         throw InvalidMesh(name + ": value '" + one.name + "' number " + format_number(bad - one.values.begin()) +
-                          " is " + format_number(*bad) + "; it should be finite");
+                          " is not a number, which its type, an integer, has no room for");
+    }
 
   naming(name, [&] { check_tags(mesh); });
   for (const Mesh::KnotInterval& interval : mesh.knot_intervals) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
+#include "sublimit/mesh/detail/attributes.h"
 #include "sublimit/mesh/detail/check_mesh.h"
 #include "sublimit/mesh/sharpness.h"
 #include "sublimit/mesh/topology.h"

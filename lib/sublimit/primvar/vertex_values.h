@@ -4,6 +4,7 @@
 // refined as positions are, or linearly.
 #include <vector>
 
+#include "sublimit/mesh/detail/attributes.h"
 #include "sublimit/scheme/refine.h"
 #include "sublimit/surface/limit_map.h"
 

@@ -9,7 +9,6 @@
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
 #include "sublimit/eval/file/table_file.h"
-#include "sublimit/mesh/detail/attributes.h"
 #include "sublimit/patches/detail/free_form_patches.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/stencils/bake/detail/applied_points.h"
@@ -154,27 +153,6 @@ std::vector<std::uint8_t> poles_of(const TableApplier<Real>& applier, std::span<
   return poles;
 }
 
-/// Gives a mesh of the table's points what their cage carries: faces names and values of the faces that they come from,
-/// points the table's sums of values at vertices.
-template <class Real>
-void carry_attributes(const TableApplier<Real>& applier, const BakedTable<Real>& table, const Mesh& cage, Mesh& out) {
-  if (has_face_attributes(cage)) {
-    const bool is_cut = topology_hash(cage) != table.info.topology_hash;
-    const Mesh baked = is_cut ? triangulated(cage) : cage;
-    if (const std::vector<Index> faces = control_faces(table, baked); std::ssize(faces) == out.num_faces())
-      carry_faces(baked, faces, out);
-  }
-  const Points columns = vertex_values(cage);
-  if (columns.cols() == 0) return;
-  const std::vector<Real> given(columns.data(), columns.data() + columns.size());
-  const auto count = static_cast<size_t>(applier.table().num_points());
-  std::vector<Real> sums(count * size_t(columns.cols()) * size_t(applier.table().quantities()));
-  applier.apply(given, static_cast<int>(columns.cols()), std::span<Real>(sums));
-  Points at_points(static_cast<Eigen::Index>(count), columns.cols());
-  std::copy_n(sums.begin(), at_points.size(), at_points.data());
-  set_vertex_values(out, cage, at_points);
-}
-
 template <class Real>
 void write_one(const ApplyOptions& options, const BakedTable<Real>& table, const TableApplier<Real>& applier,
                const FrameReader& frames, std::vector<std::uint8_t> poles, std::span<const Real> values,
@@ -192,7 +170,13 @@ void write_one(const ApplyOptions& options, const BakedTable<Real>& table, const
       all_formats().holds(options.output, MeshField::corner_normals))  // which leaves out those that do not exist
     for (const Index v : mesh.face_vertices) mesh.face_normals.push_back(mesh.normals.row(v).isZero(0) ? -1 : v);
   if (all_formats().holds(options.output, MeshField::face_varying)) add_channels(mesh, table);
-  if (frames.mesh() && !table.info.rational) carry_attributes(applier, table, *frames.mesh(), mesh);
+  if (frames.mesh() && !table.info.rational)
+    carry_attributes<Real>(
+        table, *frames.mesh(),
+        [&](std::span<const Real> points, int channels, std::span<Real> sums) {
+          applier.apply(points, channels, sums);
+        },
+        mesh);
   write_mesh(options.output, mesh, progress.bytes_written());
   progress.step("");
   tell_left_out(options.common, options.output, mesh, {});
@@ -295,7 +279,7 @@ Command add_apply(CLI::App& app) {
   command
       ->add_option(
           "POINTS", options->points,
-          "Points of the cage: the vertices of an .obj, .ply or .off; the lines of a .csv; an .npy of vertices "
+          "Points of the cage: the vertices of an .obj, .ply, .off or .stl; the lines of a .csv; an .npy of vertices "
           "x channels or frames x vertices x channels. Of rational free-form surfaces columns w x, w y, w z, w")
       ->required();
   command

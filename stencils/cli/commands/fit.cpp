@@ -65,11 +65,12 @@ void write_text(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-/// A level and its points, with the tags and texture coordinates that it has.
+/// A level and its points, with the tags, texture coordinates, values and names that it has.
 Mesh mesh_output(const FitOptions& options, const Loaded& loaded, const ReportedFit& fit, Progress& progress) {
   Mesh out = level_output(fit.level, fit.points, loaded.mesh, loaded.rules, true);
-  if (loaded.mesh.face_varying.empty()) return out;
+  if (loaded.mesh.face_varying.empty() && !carries_attributes(loaded.mesh)) return out;
   const std::vector<Level> levels = refined_levels(loaded, fit.level.number, progress);
+  carry_attributes(loaded, levels, out);
   const std::vector<FaceVaryingLevel> channel = refined_channel(options.common, loaded, levels, options.output);
   if (channel.empty()) return out;
   add_channel(out, channel.back(), loaded.mesh.face_varying[0].name,
@@ -245,7 +246,7 @@ Command add_fit(CLI::App& app) {
   FitSettings& settings = options->settings;
   add_mesh(*command, options->common, false);
   command->get_option("MESH")->description(
-      "Control mesh: .obj (with tags), .ply or .off, or without -s free-form surfaces (.obj); MESH.json beside a mesh "
+      "Control mesh: .obj (with tags), .ply, .off or .stl, or without -s free-form surfaces (.obj); MESH.json beside a mesh "
       "overrides tags");
   command->add_option("--targets", options->targets, "IN.csv: what the limit shall go through, see below");
   command->add_option("--cloud", options->cloud,

@@ -7,7 +7,6 @@
 #include "support/free_form.h"
 #include "support/normal_surfaces.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/primvar/vertex_values.h"
 #include "sublimit/stencils/files/level_files.h"
 #include "sublimit/stencils/formats/formats.h"
 
@@ -48,9 +47,7 @@ int limit_vertices(const LimitOptions& options) {
                         !options.normals ? Normals::none
                         : per_corner     ? Normals::per_corner
                                          : Normals::per_vertex);
-  const Points values = refined_vertex_values(*loaded.scheme, loaded.mesh, levels);
-  const bool is_linear = loaded.mesh.attributes == Attributes::linear;  // such values are their own limits
-  carry_attributes(loaded.mesh, levels, is_linear ? values : apply(limit.position, values), out);
+  carry_attributes(loaded, levels, out, &limit.position);
   if (!channel.empty()) add_channel(out, channel.back(), loaded.mesh.face_varying[0].name, limit_values);
   write_output(options.common, options.output, out, loaded.mesh, progress);
   if (!options.common.quiet) {

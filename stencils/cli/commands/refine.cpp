@@ -10,7 +10,6 @@
 #include "support/curves.h"
 #include "support/free_form.h"
 #include "support/normal_surfaces.h"
-#include "sublimit/primvar/vertex_values.h"
 
 namespace sublimit::cli {
 namespace {
@@ -49,7 +48,7 @@ int refine_mesh(const RefineOptions& options) {
     progress.step("writing " + options.output);
     out = level_output(levels.back(), refined_points(levels, loaded.mesh.positions), loaded.mesh, loaded.rules,
                        !options.no_tags);
-    carry_attributes(loaded.mesh, levels, refined_vertex_values(*loaded.scheme, loaded.mesh, levels), out);
+    carry_attributes(loaded, levels, out);
   }
   if (!channel.empty()) {
     add_channel(out, channel.back(), loaded.mesh.face_varying[0].name,

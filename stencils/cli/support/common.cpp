@@ -53,7 +53,7 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
   add_mesh_options(command,
                    {common.mesh, common.scheme, common.boundary, common.creasing, common.triangles,
                     &common.face_varying, common.options, common.triangulate, common.no_creases},
-                   ".obj (with tags), .ply or .off, or without -s free-form shapes (.obj) or recipes (.json)",
+                   ".obj (with tags), .ply, .off or .stl, or without -s free-form shapes (.obj) or recipes (.json)",
                    scheme_required);
   command
       .add_option("--attributes", common.attributes,
@@ -88,6 +88,8 @@ void tell_left_out(const Common& common, const std::string& path, const Mesh& ou
   if (out.face_varying.empty() && out.texture.rows() == 0 && !control.face_varying.empty() &&
       !all_formats().holds(path, face_varying))
     fields.push_back(face_varying);
+  if (!out.face_ids.empty() && !out.groups.of_face.empty() && all_formats().holds(path, groups))
+    fields.push_back(groups);  // whose lines have the numbers of faces
   if (common.quiet || fields.empty()) return;
   std::vector<std::string> names, keepers = all_formats().holders(fields.front());
   for (const MeshField field : fields) {

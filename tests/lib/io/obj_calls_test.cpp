@@ -11,11 +11,11 @@
 namespace sublimit::testing {
 namespace {
 
-const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::string four_points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST(ObjCalls, LinesOfFilesStandInPlaceOfTheirCalls) {
   const TemporaryDirectory directory;
-  directory.write("points.obj", "g one\n" + points);
+  directory.write("points.obj", "g one\n" + four_points);
   directory.write("inner.obj", "f 1 2 3");  // no line end
   directory.write("faces.obj", "call inner.obj\r\nf 1 3 4\r\n");
   const std::string path =
@@ -56,7 +56,7 @@ TEST(ObjCalls, MessagesNameTheCalledFile) {
 TEST(ObjCalls, WhatIsLeftOutIsTold) {
   const TemporaryDirectory directory;
   const std::string path =
-      directory.write("main.obj", "call none.obj\n" + points + "call a.obj 1 2\nf 1 2 3\ncall\ncaller\n").string();
+      directory.write("main.obj", "call none.obj\n" + four_points + "call a.obj 1 2\nf 1 2 3\ncall\ncaller\n").string();
   const Mesh mesh = read_mesh(path);
   ASSERT_EQ(mesh.warnings.size(), 4u);
   EXPECT_EQ(mesh.warnings[0], path + ":1: call of 'none.obj' left out: there is no such file");
@@ -67,7 +67,7 @@ TEST(ObjCalls, WhatIsLeftOutIsTold) {
 
 TEST(ObjCalls, CirclesAreRefused) {
   const TemporaryDirectory directory;
-  const std::string path = directory.write("a.obj", points + "f 1 2 3\ncall b.obj\n").string();
+  const std::string path = directory.write("a.obj", four_points + "f 1 2 3\ncall b.obj\n").string();
   const std::string other = directory.write("b.obj", "call ./a.obj\n").string();
   expect_error<FormatError>([&] { (void)read_mesh(path); }, {other + ":1: call of './a.obj'", "in a circle"});
   directory.write("b.obj", "call c.obj\ncall c.obj\n");

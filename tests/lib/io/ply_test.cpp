@@ -70,7 +70,7 @@ TEST(Ply, KeepsFurtherValuesOfVertices) {
   EXPECT_EQ(parse_ply(format_ply(mesh), "values.ply", std::vector<std::string>{"tag"}).vertex_values[0].values,
             (std::vector<double>{2, 4, -2147483648.0, 2147483647.0}));
   mesh.vertex_values[0].values[1] = std::numeric_limits<double>::quiet_NaN();
-  expect_error<InvalidMesh>([&] { format_ply(mesh); }, {"value 'tag' number 1 is nan"});
+  expect_error<InvalidMesh>([&] { format_ply(mesh); }, {"value 'tag' number 1 is not a number"});
   mesh.vertex_values[0].values.pop_back();
   expect_error<InvalidMesh>([&] { format_ply(mesh); }, {"value 'tag' has 3 numbers for 4 vertices"});
 }

@@ -68,7 +68,7 @@ void expect_sides(const Mesh& mesh, const std::string& what) {
 
 /// Colours are positions as `named_cube` makes them.
 void expect_places(const Mesh& mesh, double tolerance) {
-  ASSERT_EQ(mesh.vertex_values.size(), 3u);
+  ASSERT_GE(mesh.vertex_values.size(), 3u);  // places of triangles follow
   for (Eigen::Index k = 0; k < 3; ++k)
     for (Index v = 0; v < mesh.num_vertices(); ++v)
       EXPECT_NEAR(mesh.vertex_values[size_t(k)].values[size_t(v)], mesh.positions(v, k) / 4 + 0.5, tolerance);
@@ -95,6 +95,8 @@ TEST(CliAttributes, NamesAndColoursGoThroughEveryVerb) {
     done(sublimit(
         {"refine", on.mesh, "-s", "catmull-clark", "-l", "2", "--matrix", on.path("m.mtx"), "--no-tags", "-o", out}));
     check("refine with a matrix");
+    done(sublimit({"refine", on.mesh, "-s", "catmull-clark", "-l", "2", "--no-tags", "-o", out}));
+    check("refine without tags");
     done(sublimit({"refine", on.mesh, "-s", "loop", "--triangulate", "-l", "2", "-o", out}));
     EXPECT_EQ(read_mesh(out).num_faces(), 12 * 16);
     done(sublimit({"limit", on.mesh, "-s", "catmull-clark", "-l", "1", "--normals", "-o", out}));
@@ -224,7 +226,7 @@ TEST(CliAttributes, ASidecarHasKeysOfOne) {
   directory.write("mesh.json", "[]");
   EXPECT_EQ(corners({"--sidecar", elsewhere}), 1u);
   expect_failure(sublimit({"info", mesh, "--sidecar", sidecar}), 3, {"holds an array"});
-  expect_failure(sublimit({"info", mesh, "--sidecar", (directory / "none.json").string()}), 4, {"none.json"});
+  expect_failure(sublimit({"info", mesh, "--sidecar", (directory / "none.json").string()}), 3, {"none.json"});
   directory.write("mesh.json", "{\"creaseIndices\": [0, 3], \"creaseLengths\": [2], \"creaseSharpnesses\": [1]}");
   const Outcome warned = sublimit({"info", mesh});
   EXPECT_EQ(warned.status, 0);

@@ -94,7 +94,7 @@ TEST(CliManual, BashCompletesVerbsOptionsSchemesAndFiles) {
       {"refine -s catmull", "catmull-clark|catmull-clark-intervals"},
       {"refine ''", "cage.obj|dir|r.json|two words.ply"},
       {"refine cage.obj ''", ""},
-      {"refine cage.obj --boundary ''", "edge-and-corner|edge-only|none"},
+      {"refine cage.obj --boundary ''", "edge-and-corner|edge-only|fixed|none"},
       {"refine cage.obj --boundary=edge-o", "edge-only"},
       {"refine --option quads = ''", "catmull-clark|edges"},
       {"refine -s loop --quiet c", "cage.obj"},

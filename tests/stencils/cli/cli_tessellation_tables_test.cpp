@@ -140,6 +140,7 @@ TEST(CliTessellationTables, AreRefusedInClearWords) {
   refused({"--tessellation", on.triangles, "-l", "2"}, 2, {"more than one", "--tessellation"});
   refused({"--tessellation", on.triangles, "--tags"}, 2, {"--tags"});
   Mesh plain = read_mesh(on.triangles);
+  plain.vertex_values.clear();  // the places
   write_ply(on.path("plain.ply"), plain);
   refused({"--tessellation", on.path("plain.ply")}, 3, {"plain.ply", "place_face", "sublimit tessellate"});
   std::vector<Place> places = read_placed_faces(on.triangles).places;

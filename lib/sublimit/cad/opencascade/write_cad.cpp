@@ -77,13 +77,15 @@ void set_names(const BoundaryModel& model, const ModelShape& made, const STEPCon
 }
 
 std::string step_text(const BoundaryModel& source, const ModelShape& made, const std::string& name) {
+  // The unit that a writer finds when it is made scales numbers, the one that it finds when it writes is told in the
+  // file.
+  Interface_Static::SetCVal("write.step.unit", "MM");
   STEPControl_Writer writer;
   Interface_Static::SetIVal("write.surfacecurve.mode", 0);  // readers find curves in parameters again: lines
   Interface_Static::SetCVal("write.step.product.name", step_string(name).c_str());
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
-  const char* const units[] = {"MM", "M", "INCH"};  // of LengthUnit; the same for shape and file, so that numbers stay
-  for (const char* const which : {"xstep.cascade.unit", "write.step.unit"})
-    Interface_Static::SetCVal(which, units[static_cast<int>(source.unit)]);
+  const char* const units[] = {"MM", "M", "INCH"};  // of LengthUnit
+  Interface_Static::SetCVal("write.step.unit", units[static_cast<int>(source.unit)]);
   if (writer.Transfer(made.shape, STEPControl_AsIs) != IFSelect_RetDone)
     throw Refused{"it could not make a STEP model of the surface"};
   set_names(source, made, writer);

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "sublimit/base/error.h"
-#include "sublimit/mesh/detail/check_mesh.h"
 
 namespace sublimit {
 namespace {

@@ -14,6 +14,10 @@
 
 namespace sublimit {
 
+/// Checks that all faces have a name or none, each of its list, and that values are one for each vertex or face.
+/// @throws InvalidMesh  says what is missing
+void check_attributes(const Mesh& mesh);
+
 /// Names of values that are a colour.
 inline constexpr std::array<const char*, 4> colour_names{"red", "green", "blue", "alpha"};
 /// Returns the numbers of the values red, green, blue and alpha, -1 for no alpha; nothing if there is no colour.

@@ -15,8 +15,4 @@ void check_faces(const MeshView& mesh);
 /// @throws InvalidMesh  names the tag
 void check_tags(const Mesh& mesh);
 
-/// Checks that all faces have a name or none, each of its list, and that values are one for each vertex or face.
-/// @throws InvalidMesh  says what is missing
-void check_attributes(const Mesh& mesh);
-
 }  // namespace sublimit

@@ -6,7 +6,6 @@
 #include "sublimit/base/error.h"
 #include "sublimit/distributed/mesh/spread_readers.h"
 #include "sublimit/io/detail/obj.h"
-#include "sublimit/mesh/detail/attributes.h"
 
 namespace sublimit {
 namespace {
@@ -84,7 +83,8 @@ SpreadMesh read_obj_parts(const Ranks& ranks, std::string_view text, const std::
   mesh.face_sizes = std::move(read.face_sizes);
   mesh.face_vertices.assign(read.face_vertices.begin(), read.face_vertices.end());
   take_channel(ranks, read, mesh, name);
-  const bool has_names = has_face_attributes(read);
+  const bool has_names =
+      !read.face_names().of_face.empty() || !read.materials.of_face.empty() || !read.smoothing_groups.of_face.empty();
   take_tags(ranks, read, mesh);
   if (!ranks.all(!has_names) && ranks.is_first())
     mesh.about.warnings.push_back(name + ": names of faces are left out; `sublimit refine` keeps them");

@@ -4,21 +4,22 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
-#include "sublimit/mesh/detail/attributes.h"
+#include "sublimit/primvar/vertex_values.h"
 
 namespace sublimit {
 
 Mesh without_tags(Mesh mesh) {
   Mesh bare;
+  carry_faces(mesh, bare);
   bare.positions.swap(mesh.positions);
   bare.face_sizes = std::move(mesh.face_sizes);
   bare.face_vertices = std::move(mesh.face_vertices);
   bare.face_varying = std::move(mesh.face_varying);
   bare.vertex_values = std::move(mesh.vertex_values);
-  carry_faces(mesh, bare);
   bare.warnings = std::move(mesh.warnings);
   return bare;
 }
+
 Mesh level_output(const Level& level, const Points& points, const Mesh& control, const SubdivisionOptions& options,
                   bool tags) {
   Mesh mesh = level_mesh(level, points, control, options);

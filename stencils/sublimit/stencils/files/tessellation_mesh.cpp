@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "sublimit/base/error.h"
-#include "sublimit/mesh/detail/attributes.h"
 #include "sublimit/primvar/vertex_values.h"
 #include "sublimit/tessellation/detail/corner_values.h"
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/stencils/bake/detail/table_mesh.h"
 
+#include <algorithm>
+
+#include "sublimit/primvar/vertex_values.h"
+#include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/source/address.h"
+#include "sublimit/stencils/bake/detail/table_info.h"
 #include "sublimit/stencils/formats/rule_of_word.h"
 
 namespace sublimit {
@@ -49,6 +54,26 @@ std::vector<Index> control_faces(const BakedTable<Real>& table, const Mesh& cont
   return faces;
 }
 
+template <class Real>
+void carry_attributes(const BakedTable<Real>& table, const Mesh& cage, const ApplyTable<Real>& apply, Mesh& out) {
+  if (has_face_attributes(cage)) {
+    const Mesh baked = topology_hash(cage) == table.info.topology_hash ? cage : triangulated(cage);
+    if (const std::vector<Index> faces = control_faces(table, baked); std::ssize(faces) == out.num_faces())
+      carry_faces(baked, faces, out);
+  }
+  const Points columns = vertex_values(cage);
+  if (columns.cols() == 0) return;
+  const std::vector<Real> given(columns.data(), columns.data() + columns.size());
+  const std::int64_t count = table.table.num_points();
+  std::vector<Real> sums(size_t(count * columns.cols() * table.table.quantities()));
+  apply(given, static_cast<int>(columns.cols()), sums);
+  Points at_points(count, columns.cols());
+  std::copy_n(sums.begin(), at_points.size(), at_points.data());
+  set_vertex_values(out, cage, at_points);
+}
+
+template void carry_attributes(const BakedTable<float>&, const Mesh&, const ApplyTable<float>&, Mesh&);
+template void carry_attributes(const BakedTable<double>&, const Mesh&, const ApplyTable<double>&, Mesh&);
 template std::vector<Index> control_faces(const BakedTable<float>&, const Mesh&);
 template std::vector<Index> control_faces(const BakedTable<double>&, const Mesh&);
 template void add_channels(Mesh&, const BakedTable<float>&);

@@ -5,7 +5,6 @@
 
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
-#include "sublimit/mesh/detail/attributes.h"
 #include "sublimit/primvar/vertex_values.h"
 
 namespace sublimit {
@@ -32,6 +31,17 @@ std::vector<FaceVaryingLevel> refined_channel(const MeshJob& job, const std::vec
   }
 }
 
+void carry_attributes(const MeshJob& job, const std::vector<Level>& levels, Mesh& out, const SparseMatrix* limit) {
+  Points values = refined_vertex_values(*job.scheme, job.mesh, levels);
+  // Linear values are their own limits.
+  if (limit && job.mesh.attributes != Attributes::linear && values.cols() > 0) values = apply(*limit, values);
+  carry_attributes(job.mesh, levels, values, out);
+}
+
+bool carries_attributes(const Mesh& mesh) {
+  return has_face_attributes(mesh) || (!mesh.vertex_values.empty() && mesh.attributes != Attributes::drop);
+}
+
 Mesh refined_positions(const MeshJob& job, int levels, const std::function<void(int)>& progress) {
   Mesh refined = refined_mesh(*job.scheme, job.mesh, levels, job.rules, progress);
   if (job.mesh.attributes == Attributes::linear)
@@ -45,7 +55,7 @@ Mesh refined_mesh(const MeshJob& job, int levels, const std::function<void(int)>
   Points points = job.mesh.positions;
   for (size_t k = 1; k < all.size(); ++k) points = apply(all[k].S, points);
   Mesh refined = level_mesh(all.back(), std::move(points), job.mesh, job.rules);
-  carry_attributes(job.mesh, all, refined_vertex_values(*job.scheme, job.mesh, all), refined);
+  carry_attributes(job, all, refined);
   for (const Topology::Fault& fault : all[0].topology().faults()) refined.warnings.push_back(fault.message);
   for (size_t c = 0; c < job.mesh.face_varying.size(); ++c) {
     const Mesh::FaceVarying& given = job.mesh.face_varying[c];

@@ -28,6 +28,13 @@ std::string left_out(const Mesh::FaceVarying& channel, size_t number, const std:
 std::vector<FaceVaryingLevel> refined_channel(const MeshJob& job, const std::vector<Level>& levels,
                                               std::string& why_not, size_t number = 0);
 
+/// Gives a mesh of the last level's faces, or of those that are no holes, what the mesh of a job carries.
+/// @param limit  weights that take values of the level to the limit; null: values are those of the level
+void carry_attributes(const MeshJob& job, const std::vector<Level>& levels, Mesh& out,
+                      const SparseMatrix* limit = nullptr);
+/// True if a mesh has values at vertices, or names or values of faces, that are to be carried on.
+bool carries_attributes(const Mesh& mesh);
+
 /// Returns level `levels` with remaining tags and attributes, without channels.
 /// @throws Error    as `refined_mesh`
 Mesh refined_positions(const MeshJob& job, int levels, const std::function<void(int)>& progress);
