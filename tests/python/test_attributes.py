@@ -63,6 +63,16 @@ def test_linear_attributes_are_means(cube: sublimit.Mesh) -> None:
         sublimit.refine(mesh, "catmull-clark", attributes="flat")
 
 
+def test_fits_keep_what_meshes_carry(grid: sublimit.Mesh) -> None:
+    found = sublimit.fit(grid, "catmull-clark", [0], grid.points[:1] + 1, refinements=(1, 1)).mesh
+    fine = sublimit.refine(grid, "catmull-clark", 1)
+    assert found.materials == fine.materials and found.groups == fine.groups
+    assert {name: values.tolist() for name, values in found.vertex_values.items()} == \
+        {name: values.tolist() for name, values in fine.vertex_values.items()}
+    dropped = sublimit.fit(grid, "catmull-clark", [0], grid.points[:1] + 1, attributes="drop").mesh
+    assert dropped.materials is None and not dropped.vertex_values
+
+
 def test_attributes_are_dropped(grid: sublimit.Mesh) -> None:
     for made in (sublimit.refine(grid, "catmull-clark", attributes="drop"),
                  sublimit.tessellate(grid, "catmull-clark", chord=0.1, attributes="drop")):
@@ -219,7 +229,7 @@ def test_every_function_of_meshes_takes_the_same_words() -> None:
     for name in FUNCTIONS:
         words = all_words[name]
         assert {"orient", "crease_angle", "crease_smoothing_groups", "triangulate", "no_creases", "strict"} <= words, name
-        assert ("attributes" in words) == (name in ("refine", "tessellate")), name
+        assert ("attributes" in words) == (name in ("refine", "tessellate", "fit")), name
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)

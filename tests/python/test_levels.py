@@ -44,9 +44,9 @@ def test_refined_meshes_are_the_programs(scheme: str, program: Program, tmp_path
     dict(face_varying="boundaries"), dict(no_tags=True), dict(triangulate=True), dict(threads=1), dict(boundary="fixed"),
     dict(attributes="linear"), dict(attributes="drop"), dict(orient=True), dict(crease_angle=30),
     dict(crease_smoothing_groups=True)])
-def test_options_are_the_programs(options: dict[str, object], dressed: sublimit.Mesh, tagged: sublimit.Mesh, program: Program,
+def test_options_are_the_programs(options: dict[str, object], dressed: sublimit.Mesh, program: Program,
                                   tmp_path: pathlib.Path) -> None:
-    mesh = tagged if "no_tags" in options else dressed
+    mesh = dressed
     mesh.write(tmp_path / "in.obj")
     words = [word for name, value in options.items()
              for word in (["--" + name.replace("_", "-")] + ([] if value is True else [value]))]

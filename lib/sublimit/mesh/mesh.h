@@ -106,12 +106,13 @@ struct [[nodiscard]] Mesh {
     ValueType type = ValueType::float64;  ///< in files; values of integer types are rounded when they are written
   };
   /// Properties of vertices and of faces in PLY. Colours are `red`, `green`, `blue` and `alpha`: 0 to 255 if their type
-  /// is uint8, 0 to 1 otherwise. OBJ has colours of vertices alone.
+  /// is uint8, 0 to 65535 if it is uint16, 0 to 1 otherwise. OBJ has colours of vertices alone.
   std::vector<Values> vertex_values = {}, face_values = {};
   std::optional<Attributes> attributes = {};  ///< if absent, `smooth`
 
   std::vector<std::string> comments = {};  ///< comment lines at the top of the file
 
+  std::vector<std::string> notes = {};     ///< what the reader did to make a mesh of the file
   std::vector<std::string> warnings = {};  ///< reservations of the reader, each with file:line
 
   /// Returns the mesh with other positions, as in another frame.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -65,12 +66,15 @@ void turn(std::vector<T>& corners, Index first, Index size) {
 
 /// Makes the edges of two faces that `is_sharp` says so sharp.
 Index add_creases(Mesh& mesh, const std::vector<Side>& sides, const auto& is_sharp) {
+  std::set<std::pair<Index, Index>> tagged;
+  for (const Mesh::Crease& crease : mesh.creases) tagged.insert(std::minmax(crease.tail, crease.head));
   std::vector<Mesh::Crease> creases;
   for_each_edge(sides, [&](std::span<const Side> edge) {
-    if (edge.size() == 2 && edge[0].face != edge[1].face && is_sharp(edge[0].face, edge[1].face))
+    if (edge.size() == 2 && edge[0].face != edge[1].face && is_sharp(edge[0].face, edge[1].face) &&
+        !tagged.contains({edge[0].low, edge[0].high}))
       creases.push_back({edge[0].low, edge[0].high, infinite_sharpness});
   });
-  mesh.creases.insert(mesh.creases.begin(), creases.begin(), creases.end());  // the last entry for an edge wins
+  mesh.creases.insert(mesh.creases.end(), creases.begin(), creases.end());
   return static_cast<Index>(creases.size());
 }
 
@@ -122,11 +126,13 @@ Index add_creases_by_angle(Mesh& mesh, double angle) {
     throw InvalidParameter("an angle of creases is " + std::to_string(angle) + "; it should be 0 to pi");
   const std::vector<Side> sides = sides_of(mesh);
   std::vector<Eigen::Vector3d> normals;
+  const double size = mesh.positions.size() > 0 ? mesh.positions.cwiseAbs().maxCoeff() : 0;
+  const double unit = size > 0 ? size : 1;  // products of lengths neither vanish nor overflow
   const Index* corner = mesh.face_vertices.data();
   for (const Index size : mesh.face_sizes) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of a fan: right for faces that are not plane, too
     const auto at = [&](Index k) {
-      return Eigen::Vector3d(mesh.positions.row(corner[k]) - mesh.positions.row(corner[0]));
+      return Eigen::Vector3d(mesh.positions.row(corner[k]) / unit - mesh.positions.row(corner[0]) / unit);
     };
     for (Index k = 1; k + 1 < size; ++k) sum += at(k).cross(at(k + 1));
     normals.push_back(sum);

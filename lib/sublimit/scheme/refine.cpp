@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 #include <unordered_set>
+#include <utility>
 
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
@@ -286,18 +287,39 @@ SparseMatrix refinement_matrix(const std::vector<Level>& levels) {
   return P;
 }
 
-void follow_faces(std::vector<Index>& faces, const Refinement& step) {
+ControlFaces::ControlFaces(Index count) : faces_(size_t(count)) { std::iota(faces_.begin(), faces_.end(), 0); }
+
+void ControlFaces::follow(const Topology& parent, const Refinement& step) {
+  const Topology& t = step.topology;
   std::vector<Index> children(step.face_parent.size());
-  for (size_t f = 0; f < children.size(); ++f) children[f] = faces[size_t(step.face_parent[f])];
-  faces.swap(children);
+  for (size_t f = 0; f < children.size(); ++f) children[f] = faces_[size_t(step.face_parent[f])];
+  const bool is_sqrt3 = step.split == Split::sqrt3;
+  // A child is at a half-edge of its parent, of which one end at least is the point of the face that it lies in.
+  for (size_t f = 0; is_sqrt3 && straddles_ && f < children.size(); ++f) {
+    const Vertex first = t.tail(t.corner(Face{static_cast<Index>(f)}, 0));
+    if (step.origin(first) != Refinement::Origin::vertex) continue;
+    for (Index k = 0; k < 3; ++k) {
+      const HalfEdge h = parent.corner(Face{step.face_parent[f]}, k);
+      if (index(parent.tail(h)) != step.parent(first)) continue;
+      for (const Vertex end : {parent.head(h), parent.tail(h)})
+        if (const Index i = index(end) - from_vertices_; i >= 0 && i < from_faces_)
+          children[f] = before_[size_t(face_list_.empty() ? i : face_list_[size_t(i)])];
+    }
+  }
+  before_ = std::exchange(faces_, std::move(children));
+  from_vertices_ = step.from_vertices, from_faces_ = step.from_faces, face_list_ = step.face_list;
+  straddles_ = is_sqrt3 && !straddles_;
 }
 
 std::vector<Index> control_faces(std::span<const Level> levels) {
-  std::vector<Index> faces(size_t(levels.front().topology().num_faces()));
-  std::iota(faces.begin(), faces.end(), 0);
+  ControlFaces control(levels.front().topology().num_faces());
+  const Topology* parent = &levels.front().topology();
   for (const Level& level : levels.subspan(1))
-    for (const Refinement& step : level.steps) follow_faces(faces, step);
-  return faces;
+    for (const Refinement& step : level.steps) {
+      control.follow(*parent, step);
+      parent = &step.topology;
+    }
+  return control.faces();
 }
 
 double predicted_vertices(const Scheme<double>& scheme, const Topology& t, int level) {

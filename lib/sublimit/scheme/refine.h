@@ -104,9 +104,22 @@ LevelOf<T> next_level(const Scheme<T>& scheme, const LevelOf<T>& parent);
 /// Returns for each face of the last level the face of the first one that it comes from: its own parent, or one at its
 /// edge or vertex.
 std::vector<Index> control_faces(std::span<const Level> levels);
-/// Follows faces one step back.
-/// @param faces  faces of the parent's level 0 for each face of the parent; becomes that of each child
-void follow_faces(std::vector<Index>& faces, const Refinement& step);
+/// Faces of a level that its descendants come from, step by step. Triangles of sqrt3 lie in two faces each after one
+/// step, and have one of these; after two steps they are back in one.
+class ControlFaces {
+ public:
+  explicit ControlFaces(Index count);
+  /// Goes on to the children.
+  /// @param parent  connectivity before the step
+  void follow(const Topology& parent, const Refinement& step);
+  const std::vector<Index>& faces() const { return faces_; }
+
+ private:
+  std::vector<Index> faces_, before_;  // of the level, of the one before
+  Index from_vertices_ = 0, from_faces_ = 0;
+  std::vector<Index> face_list_;  // of the last step, see `Refinement`
+  bool straddles_ = false;        // a triangle lies in two faces
+};
 
 /// Returns the number of vertices of a level without refining; exact except for dual steps across borders.
 double predicted_vertices(const Scheme<double>& scheme, const Topology& control, int level);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -243,12 +243,12 @@ Points smooth_values(const Mesh& mesh) {
   return mesh.attributes == Attributes::linear ? Points(mesh.num_vertices(), 0) : vertex_values(mesh);
 }
 
-/// Follows faces to the children of a primal split.
-void follow_faces(std::vector<Index>& faces, const Topology& parent, Split split) {
+/// What faces have, for the children of a primal split.
+std::vector<Index> children_of(const std::vector<Index>& faces, const Topology& parent, Split split) {
   std::vector<Index> children;
   for (Index f = 0; f < parent.num_faces(); ++f)
     children.insert(children.end(), size_t(split == Split::ptq ? 4 : parent.size(Face{f})), faces[size_t(f)]);
-  faces.swap(children);
+  return children;
 }
 
 /// Levels one after the other; the last one's faces and tags come back, and what keeps level 0 from being a manifold as
@@ -262,14 +262,11 @@ Mesh refine_steps(const Scheme<double>& scheme, const Mesh& mesh, int levels, co
   check_levels(scheme, level.topology(), levels, is_simple(scheme, level) ? LevelMemory::mesh : LevelMemory::points);
   std::vector<std::string> warnings;
   for (const Topology::Fault& fault : level.topology().faults()) warnings.push_back(fault.message);
-  std::vector<Index> faces;  // of level 0, for each face; empty if these carry nothing
-  if (has_face_attributes(mesh)) {
-    faces.resize(size_t(level.topology().num_faces()));
-    std::iota(faces.begin(), faces.end(), 0);
-  }
+  std::optional<ControlFaces> faces;  // absent if these carry nothing
+  if (has_face_attributes(mesh)) faces.emplace(level.topology().num_faces());
   const auto finished = [&](Mesh refined) {
     refined.warnings = std::move(warnings);
-    if (!faces.empty()) carry_faces(mesh, faces, refined);
+    if (faces) carry_faces(mesh, faces->faces(), refined);
     return refined;
   };
   for (int k = 1; k <= levels; ++k) {
@@ -281,15 +278,17 @@ Mesh refine_steps(const Scheme<double>& scheme, const Mesh& mesh, int levels, co
         check_wide_faces(scheme.name, scheme.corners, level.topology(), level.number);
       const Sharpness none;
       on_step(StepView{scheme, step, level.topology(), numbers, level.sharpness, none, level.number, nullptr});
-      if (!faces.empty()) follow_faces(faces, level.topology(), step.split);
-      return finished(simple_mesh(level, numbers, mesh, options));
+      Mesh refined = simple_mesh(level, numbers, mesh, options);
+      if (faces) carry_faces(mesh, children_of(faces->faces(), level.topology(), step.split), refined);
+      faces.reset();
+      return finished(std::move(refined));
     }
     level = next_topology(
         scheme, level,
         [&](const Step<double>& step, const Topology& topology, const Refinement& refinement,
             const Sharpness& sharpness, const Sharpness& child_sharpness, const KnotSplit* knots) {
           on_step(StepView{scheme, step, topology, refinement, sharpness, child_sharpness, level.number, knots});
-          if (!faces.empty()) follow_faces(faces, refinement);
+          if (faces) faces->follow(topology, refinement);
         });
   }
   return finished(level_mesh(level, {}, mesh, options));

@@ -10,7 +10,6 @@
 #include "sublimit/base/error.h"
 #include "sublimit/eval/file/table_file.h"
 #include "sublimit/patches/detail/free_form_patches.h"
-#include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/stencils/bake/detail/applied_points.h"
 #include "sublimit/stencils/bake/detail/table_info.h"
 #include "sublimit/stencils/bake/detail/table_mesh.h"
@@ -41,10 +40,8 @@ void check_cage(const ApplyOptions& options, const TableInfo& info, std::int64_t
     throw InvalidMesh(fmt::format("{}: {} points, and {} is a {}; give the points of that cage, in its order",
                                   options.points, frames.num_points(), options.table, cage_of(info, points)));
   if (options.any_cage || !frames.mesh() || info.topology_hash == 0) return;
-  const Mesh& mesh = *frames.mesh();
-  if (mesh.num_faces() == 0) return;  // points alone
-  // What was baked may have been cut into triangles first.
-  if (topology_hash(mesh) != info.topology_hash && topology_hash(triangulated(mesh)) != info.topology_hash)
+  if (frames.mesh()->num_faces() == 0) return;  // points alone
+  if (!baked_cage(*frames.mesh(), info))
     throw InvalidMesh(
         fmt::format("{}: its faces are others than those of the cage that {} was baked from ({}); bake a table of this "
                     "mesh, or, if its points are the same in the same order, give --any-cage",
@@ -180,6 +177,12 @@ void write_one(const ApplyOptions& options, const BakedTable<Real>& table, const
   write_mesh(options.output, mesh, progress.bytes_written());
   progress.step("");
   tell_left_out(options.common, options.output, mesh, {});
+  if (frames.mesh() && carries_face_attributes(*frames.mesh()) && !carries_face_attributes(mesh) &&
+      !options.common.quiet)
+    fmt::print(stderr,
+               "sublimit: note: {}: names and values of faces are left out: {} does not know which faces of the "
+               "cage its faces come from; `sublimit refine` and `limit` keep them\n",
+               options.output, options.table);
 }
 
 /// Frames x quantities x points x channels, dimensions of one frame and of one quantity left out.

@@ -245,6 +245,7 @@ Command add_fit(CLI::App& app) {
   auto options = std::make_shared<FitOptions>();
   FitSettings& settings = options->settings;
   add_mesh(*command, options->common, false);
+  add_attributes(*command, options->common);
   command->get_option("MESH")->description(
       "Control mesh: .obj (with tags), .ply, .off or .stl, or without -s free-form surfaces (.obj); MESH.json beside a mesh "
       "overrides tags");

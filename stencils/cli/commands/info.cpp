@@ -89,6 +89,8 @@ int run(const Common& common, bool as_json, bool limit) {
   }
   const Loaded loaded = load(quiet, progress);  // warnings and faults are what this subcommand prints
   progress.step("");
+  if (!common.quiet)
+    for (const std::string& note : loaded.notes) fmt::print(stderr, "sublimit: note: {}\n", note);
   MeshInfo info = mesh_info(loaded, normals);
   if (limit && info.why_not.empty()) {
     progress.step("integrating over the limit");

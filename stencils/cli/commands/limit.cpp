@@ -80,6 +80,7 @@ Command add_limit(CLI::App& app) {
   auto* command = app.add_subcommand("limit", "Move the vertices of a level to the limit surface");
   auto options = std::make_shared<LimitOptions>();
   add_mesh(*command, options->common, false);
+  add_attributes(*command, options->common);
   command->add_option("-l,--levels", options->levels, "Level whose vertices are moved (default 0, the control mesh)");
   command->add_flag("--normals", options->normals,
                     "Limit normals too: per corner in .obj (one for each side of a crease), per vertex in .ply");

@@ -60,7 +60,6 @@ BakeJob read_job(const std::string& text_of_line, const std::string& manifest, s
   rule("creasing", creasing_words, common.creasing);
   rule("triangles", triangles_words, common.triangles);
   rule("face-varying", face_varying_words, common.face_varying);
-  rule("attributes", attributes_words, common.attributes);
   if (text("sidecar", common.sidecar) && common.sidecar != "none")
     common.sidecar = (directory / common.sidecar).string();
   common.orient = line.flag_or("orient", common.orient);

@@ -81,6 +81,7 @@ Command add_refine(CLI::App& app) {
   auto* command = app.add_subcommand("refine", "Refine a mesh or curves");
   auto options = std::make_shared<RefineOptions>();
   add_mesh(*command, options->common, false);
+  add_attributes(*command, options->common);
   command->add_option("-l,--levels", options->levels, "Levels of refinement")->required();
   command->add_option("-o,--output", options->output, "OUT.obj (with tags, so that refining can go on) or OUT.ply")
       ->required();

@@ -60,7 +60,7 @@ void check_triangle_options(const TessellateOptions& options) {
   if (!options.rates.empty()) refuse("--rates");
 }
 
-int write_cells(const TessellateOptions& options, const LimitMap& surface, const Points& control,
+int write_cells(const TessellateOptions& options, const Loaded& loaded, const LimitMap& surface, const Points& control,
                 const TessellationOptions& wanted, Progress& progress) {
   progress.step("finding polynomials");
   BezierCells cells;
@@ -68,6 +68,9 @@ int write_cells(const TessellateOptions& options, const LimitMap& surface, const
   progress.step("writing " + options.output);
   write_vtu(options.output, cells, surface.addresses(), progress.bytes_written());
   progress.step("");
+  Mesh carried = loaded.mesh;
+  carried.creases.clear(), carried.corners.clear(), carried.knot_intervals.clear(), carried.holes.clear();
+  if (carried.attributes != Attributes::drop) tell_left_out(options.common, options.output, carried, {});
   if (!options.common.quiet)
     fmt::print("{}: {} exact Bezier cells, {} bilinear ones where the limit is no polynomial, at most {} from it\n",
                options.output, cells.exact, std::ssize(cells.cells) - cells.exact, format_number(cells.bound));
@@ -197,7 +200,7 @@ int run(const TessellateOptions& options) {
   std::optional<LimitMap> surface;
   naming_mesh(options.common, [&] { surface.emplace(*loaded.scheme, loaded.mesh, loaded.rules); });
   if (all_formats().writes(options.output, contents::cells))
-    return write_cells(options, *surface, control, wanted, progress);
+    return write_cells(options, loaded, *surface, control, wanted, progress);
   if (!options.rates.empty()) wanted.rates = read_edge_rates(options.rates, surface->level().topology());
   Tessellation made;
   Mesh out;
@@ -223,6 +226,7 @@ Command add_tessellate(CLI::App& app) {
       app.add_subcommand("tessellate", "Make triangles within a proved distance of the limit, or of patches");
   auto options = std::make_shared<TessellateOptions>();
   add_mesh(*command, options->common, false);
+  add_attributes(*command, options->common);
   command->add_option(
       "--chord", options->chord,
       "Largest distance of triangles from the surface: in the unit of MESH, or as 0.1% of its diagonal");

@@ -55,11 +55,6 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
                     &common.face_varying, common.options, common.triangulate, common.no_creases},
                    ".obj (with tags), .ply, .off or .stl, or without -s free-form shapes (.obj) or recipes (.json)",
                    scheme_required);
-  command
-      .add_option("--attributes", common.attributes,
-                  "Colours and other values at vertices (default: smooth, refined as positions are); drop leaves out "
-                  "names and values of faces, too")
-      ->check(one_of(attributes_words));
   command.add_flag("--orient", common.orient, "First turn faces so that winding is consistent, and tell which");
   command
       .add_option("--crease-angle", common.crease_angle,
@@ -88,10 +83,12 @@ void tell_left_out(const Common& common, const std::string& path, const Mesh& ou
   if (out.face_varying.empty() && out.texture.rows() == 0 && !control.face_varying.empty() &&
       !all_formats().holds(path, face_varying))
     fields.push_back(face_varying);
-  if (!out.face_ids.empty() && !out.groups.of_face.empty() && all_formats().holds(path, groups))
-    fields.push_back(groups);  // whose lines have the numbers of faces
+  if (!common.quiet && !out.face_ids.empty() && !out.groups.of_face.empty() && all_formats().holds(path, groups))
+    fmt::print(stderr, "sublimit: note: {}: its groups are the numbers of faces (--face-ids), not those of the mesh\n",
+               path);
   if (common.quiet || fields.empty()) return;
   std::vector<std::string> names, keepers = all_formats().holders(fields.front());
+  std::erase_if(keepers, [&](const std::string& extension) { return all_formats().find("x" + extension) == format; });
   for (const MeshField field : fields) {
     names.emplace_back(name_of(field));
     std::erase_if(keepers, [&](const std::string& extension) { return !all_formats().holds("x" + extension, field); });
@@ -100,6 +97,14 @@ void tell_left_out(const Common& common, const std::string& path, const Mesh& ou
       keepers.empty() ? "" : fmt::format("; written as {} the mesh keeps them", listed(keepers, "or"));
   fmt::print(stderr, "sublimit: note: {}: {} has no place for {}{}\n", path, format->name, listed(names, "and"),
              advice);
+}
+
+void add_attributes(CLI::App& command, Common& common) {
+  command
+      .add_option("--attributes", common.attributes,
+                  "Colours and other values at vertices (default: smooth, refined as positions are); drop leaves out "
+                  "names and values of faces, too")
+      ->check(one_of(attributes_words));
 }
 
 MeshRequest request_of(const Common& common) {
@@ -137,7 +142,7 @@ Loaded load(const Common& common, Progress& progress) {
   list(loaded.mesh.warnings, "warning", 5);
   for (std::string& fault : found) fault = common.mesh + ": " + fault;
   list(found, "warning", 5);
-  for (const std::string& note : loaded.notes) fmt::print(stderr, "sublimit: note: {}: {}\n", common.mesh, note);
+  list(loaded.notes, "note", 5);
   return loaded;
 }
 

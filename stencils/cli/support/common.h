@@ -75,6 +75,8 @@ class Progress {
 /// Adds options to a subcommand: `add_run` --threads and --quiet, `add_mesh` the options of mesh and scheme.
 void add_run(CLI::App& command, Common& common);
 void add_mesh(CLI::App& command, Common& common, bool scheme_required);
+/// Adds --attributes, for subcommands that write meshes.
+void add_attributes(CLI::App& command, Common& common);
 
 /// Returns the request that the options make.
 MeshRequest request_of(const Common& common);

@@ -64,9 +64,10 @@ class FittedPoints:
 
 def fit(mesh: Mesh, scheme: Scheme | str, vertices: npt.ArrayLike, points: npt.ArrayLike, normals: npt.ArrayLike | None = None,
         *, thin_plate: float = 0, membrane: float = 0, refinements: tuple[int, int] = (0, 2), boundary: str | None = None,
-        creasing: str | None = None, triangles: str | None = None, option: Mapping[str, OptionValue] | None = None,
-        triangulate: bool = False, no_creases: bool = False, orient: bool = False, crease_angle: float | None = None,
-        crease_smoothing_groups: bool = False, strict: bool = False, threads: int = 0) -> Fit:
+        creasing: str | None = None, triangles: str | None = None, attributes: str | None = None,
+        option: Mapping[str, OptionValue] | None = None, triangulate: bool = False, no_creases: bool = False,
+        orient: bool = False, crease_angle: float | None = None, crease_smoothing_groups: bool = False, strict: bool = False,
+        threads: int = 0) -> Fit:
     """Computes a mesh whose limit has given positions and normals at given vertices.
 
     Boundary, creasing and the other keyword arguments that are not listed are those of `refine`.
@@ -104,8 +105,8 @@ def fit(mesh: Mesh, scheme: Scheme | str, vertices: npt.ArrayLike, points: npt.A
     >>> through.solved, bool(through.position_error.max() < 1e-14)
     (True, True)
     """
-    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, option=option, triangulate=triangulate,
-                    no_creases=no_creases, orient=orient, crease_angle=crease_angle,
+    asked = request(scheme, boundary=boundary, creasing=creasing, triangles=triangles, attributes=attributes, option=option,
+                    triangulate=triangulate, no_creases=no_creases, orient=orient, crease_angle=crease_angle,
                     crease_smoothing_groups=crease_smoothing_groups, strict=strict)
     numbers = arrays.ints(vertices, "vertices", (None,), "(targets,)")
     where = arrays.floats(points, "points", (len(numbers), 3), f"({len(numbers)} targets, 3)")

@@ -65,6 +65,16 @@ TEST(ObjCalls, WhatIsLeftOutIsTold) {
   EXPECT_EQ(mesh.warnings[3], path + ":9: unknown keyword 'caller' ignored");
 }
 
+TEST(ObjCalls, FilesThatMultiplyAreRefused) {
+  const TemporaryDirectory directory;
+  for (int i = 0; i < 30; ++i) {
+    const std::string next = "call b" + std::to_string(i + 1) + ".obj\n";
+    directory.write("b" + std::to_string(i) + ".obj", next + next);
+  }
+  directory.write("b30.obj", four_points + "f 1 2 3\n");
+  expect_error<FormatError>([&] { (void)read_mesh(directory / "b0.obj"); }, {"more than 1000 calls", "into one file"});
+}
+
 TEST(ObjCalls, CirclesAreRefused) {
   const TemporaryDirectory directory;
   const std::string path = directory.write("a.obj", four_points + "f 1 2 3\ncall b.obj\n").string();

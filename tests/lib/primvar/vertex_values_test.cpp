@@ -102,6 +102,34 @@ TEST(VertexValues, AreRefinedAsPositionsAndFacesFollowTheirParents) {
   });
 }
 
+// On a flat grid faces lie where they come from; triangles of sqrt3 lie in two faces after one step and in one after
+// two.
+TEST(VertexValues, NamesStayWhereTheyAre) {
+  Mesh mesh = triangle_grid(7, 7);
+  mesh.positions.col(2).setZero();
+  mesh = carrying(mesh);
+  size_t inside = 0;
+  for (const char* const name : {"loop", "sqrt3", "interpolatory-sqrt3", "butterfly"})
+    for (const int levels : {2, 4}) {
+      const Mesh fine = refined_mesh(*find_scheme(name), mesh, levels);
+      for (size_t f = 0; f < size_t(fine.num_faces()); ++f) {
+        Eigen::RowVector3d middle(0, 0, 0);
+        for (size_t k = 0; k < 3; ++k) middle += fine.positions.row(fine.face_vertices[3 * f + k]) / 3;
+        if ((middle.array() < 2).head(2).any() || (middle.array() > 5).head(2).any()) continue;  // far from the border
+        const Index parent = fine.materials.of_face[f];
+        const auto corner = [&](Index k) {
+          return Eigen::RowVector3d(mesh.positions.row(mesh.face_vertices[size_t(3 * parent + k)]));
+        };
+        for (Index k = 0; k < 3; ++k) {
+          const Eigen::RowVector3d a = corner((k + 1) % 3) - corner(k), b = middle - corner(k);
+          EXPECT_GT(a[0] * b[1] - a[1] * b[0], -1e-9) << name << " " << levels;
+        }
+        ++inside;
+      }
+    }
+  EXPECT_GT(inside, 1000u);
+}
+
 // Positions have the same bits with and without attributes.
 TEST(VertexValues, ChangeNoPosition) {
   for_each_case([](const Scheme<double>& scheme, const Mesh& mesh) {

@@ -114,6 +114,22 @@ TEST(CliAttributes, NamesAndColoursGoThroughEveryVerb) {
   }
 }
 
+// Rows of a table do not know their faces, and say so; a table of turned faces knows the mesh as it was.
+TEST(CliAttributes, ApplyTellsWhatTablesDoNotKnow) {
+  const Tables on(named_cube());
+  expect_done(on.bake({"-l", "1"}, "doo-sabin"));
+  const Outcome told = on.apply(on.mesh, on.path("out.obj"));
+  EXPECT_EQ(told.status, 0);
+  EXPECT_NE(told.err.find("names and values of faces are left out"), std::string::npos) << told.err;
+  expect_failure(on.bake({"-l", "1", "--attributes", "drop"}), 2, {"--attributes"});
+  Mesh turned = named_cube();
+  std::reverse(turned.face_vertices.begin() + 1, turned.face_vertices.begin() + 4);
+  write_obj(on.mesh, turned);
+  expect_done(on.bake({"-l", "1", "--orient", "--precision", "double"}), true);
+  expect_done(on.apply(on.mesh, on.path("out.obj")));
+  expect_sides(read_mesh(on.path("out.obj")), "turned");
+}
+
 // Faces come from faces, edges and vertices; each has names of one beside it.
 TEST(CliAttributes, DualSchemesGiveEachFaceTheNamesOfOneBesideIt) {
   const Tables on(named_cube());

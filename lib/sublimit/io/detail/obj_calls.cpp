@@ -70,6 +70,10 @@ class Caller {
     if (std::ranges::find(open_, fs::weakly_canonical(path)) != open_.end())
       throw FormatError(place + "call of " + in_quotes(name) +
                         ", which is being read: files call each other in a circle");
+    constexpr int most = 1000;  // files that call others twice each would be read without end
+    if (++calls_ > most)
+      throw FormatError(place + "call of " + in_quotes(name) + ": more than " + std::to_string(most) +
+                        " calls; put the lines into one file");
     const std::string text = read_inflated(path);
     require_text(text, path.string(), "OBJ");
     check_memory(path.string() + " and the files that call it", 2.0 * double(result_.text.size() + text.size()),
@@ -91,6 +95,7 @@ class Caller {
   CalledText result_;
   std::int64_t lines_ = 0;  // complete ones
   std::vector<fs::path> open_;
+  int calls_ = 0;
 };
 
 }  // namespace

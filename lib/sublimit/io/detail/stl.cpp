@@ -60,8 +60,8 @@ class Triangles {
     mesh.positions.resize(std::ssize(rows), 3);
     for (std::size_t v = 0; v < rows.size(); ++v)
       for (std::size_t i = 0; i < 3; ++i) mesh.positions(Eigen::Index(v), Eigen::Index(i)) = rows[v][i];
-    mesh.warnings.push_back(name_ + ": welded " + format_number(mesh.face_vertices.size()) + " corners to " +
-                            format_number(rows.size()) + " vertices");
+    mesh.notes.push_back(name_ + ": welded " + format_number(mesh.face_vertices.size()) + " corners to " +
+                         format_number(rows.size()) + " vertices");
     if (degenerate_ > 0)
       mesh.warnings.push_back(name_ + ": " + format_number(degenerate_) + " of " + format_number(count_) +
                               " triangles have two equal corners and are left out; the first is number " +

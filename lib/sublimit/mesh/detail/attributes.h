@@ -24,7 +24,8 @@ inline constexpr std::array<const char*, 4> colour_names{"red", "green", "blue",
 std::optional<std::array<Index, 4>> find_colours(const std::vector<Mesh::Values>& values);
 /// Returns a colour's number as 0 to 1.
 inline double colour_in_unit(const Mesh::Values& channel, std::size_t i) {
-  return channel.type == ValueType::uint8 ? channel.values[i] / 255 : channel.values[i];
+  const double most = channel.type == ValueType::uint8 ? 255 : channel.type == ValueType::uint16 ? 65535 : 1;
+  return channel.values[i] / most;
 }
 
 /// True if faces have names or values that are to be carried on.

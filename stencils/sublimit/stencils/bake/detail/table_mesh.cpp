@@ -54,12 +54,23 @@ std::vector<Index> control_faces(const BakedTable<Real>& table, const Mesh& cont
   return faces;
 }
 
+std::optional<Mesh> baked_cage(const Mesh& cage, const TableInfo& info) {
+  Mesh mesh = cage;
+  for (const bool turned : {false, true}) {
+    if (turned && orient_faces(mesh).empty()) break;
+    if (topology_hash(mesh) == info.topology_hash) return mesh;
+    Mesh cut = triangulated(mesh);
+    if (topology_hash(cut) == info.topology_hash) return cut;
+  }
+  return std::nullopt;
+}
+
 template <class Real>
 void carry_attributes(const BakedTable<Real>& table, const Mesh& cage, const ApplyTable<Real>& apply, Mesh& out) {
   if (has_face_attributes(cage)) {
-    const Mesh baked = topology_hash(cage) == table.info.topology_hash ? cage : triangulated(cage);
-    if (const std::vector<Index> faces = control_faces(table, baked); std::ssize(faces) == out.num_faces())
-      carry_faces(baked, faces, out);
+    const std::optional<Mesh> baked = baked_cage(cage, table.info);
+    const std::vector<Index> faces = baked ? control_faces(table, *baked) : std::vector<Index>();
+    if (std::ssize(faces) == out.num_faces()) carry_faces(*baked, faces, out);
   }
   const Points columns = vertex_values(cage);
   if (columns.cols() == 0) return;

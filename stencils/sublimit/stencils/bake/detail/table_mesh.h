@@ -2,6 +2,7 @@
 #pragma once
 // The mesh of a table's points, without positions, for writing to a file.
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "sublimit/eval/table/baked_table.h"
@@ -19,6 +20,10 @@ void add_channels(Mesh& mesh, const BakedTable<Real>& table);
 /// @param control  the mesh that the table was baked from, of triangles if it was cut into these
 template <class Real>
 std::vector<Index> control_faces(const BakedTable<Real>& table, const Mesh& control);
+
+/// Returns a cage as a table was baked from it: itself, with consistent winding, cut into triangles, or both; nothing
+/// if its faces are none of these.
+std::optional<Mesh> baked_cage(const Mesh& cage, const TableInfo& info);
 
 /// Applies a table to points of any number of channels: all quantities, quantity after quantity.
 template <class Real>

@@ -36,24 +36,24 @@ std::string some_of(const std::vector<Index>& numbers) {
 }
 
 /// Does to winding and tags what is asked, and notes it.
-void change_mesh(const MeshRequest& request, Mesh& mesh, std::vector<std::string>& notes) {
+void change_mesh(const MeshRequest& request, Mesh& mesh, const std::string& name, std::vector<std::string>& notes) {
+  const auto note = [&](const std::string& what) { notes.push_back(name + ": " + what); };
   const auto sharp = [](Index count) {
     return std::to_string(count) + (count == 1 ? " edge" : " edges") + " made sharp";
   };
   if (request.orient) {
     const std::vector<Index> turned = orient_faces(mesh);
-    notes.push_back(turned.empty() ? "no face had to be turned"
-                                   : std::to_string(turned.size()) + (turned.size() == 1 ? " face" : " faces") +
-                                         " turned: " + some_of(turned));
+    note(turned.empty() ? "no face had to be turned"
+                        : std::to_string(turned.size()) + (turned.size() == 1 ? " face" : " faces") +
+                              " turned: " + some_of(turned));
   }
   if (request.crease_angle) {
     const double degrees = *request.crease_angle;
     if (!(degrees >= 0 && degrees <= 180))
       throw InvalidOption("crease-angle is " + format_number(degrees) + "; it should be 0 to 180 degrees");
-    notes.push_back(sharp(add_creases_by_angle(mesh, degrees * std::numbers::pi / 180)) + " by their angle");
+    note(sharp(add_creases_by_angle(mesh, degrees * std::numbers::pi / 180)) + " by their angle");
   }
-  if (request.crease_smoothing_groups)
-    notes.push_back(sharp(add_creases_by_smoothing_groups(mesh)) + " between smoothing groups");
+  if (request.crease_smoothing_groups) note(sharp(add_creases_by_smoothing_groups(mesh)) + " between smoothing groups");
   if (request.boundary == fixed_boundary) fix_border(mesh);
 }
 
@@ -89,9 +89,10 @@ MeshJob scheme_job(const MeshRequest& request) {
 
 MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name) {
   MeshJob job = scheme_job(request);
+  job.notes = mesh.notes;
   if (const auto asked = rule<Attributes>("attributes", request.attributes, attributes_words)) mesh.attributes = asked;
   if (request.no_creases) mesh = without_creases(std::move(mesh));
-  change_mesh(request, mesh, job.notes);
+  change_mesh(request, mesh, name, job.notes);
   if (request.triangulate) mesh = triangulated(mesh);
   if (const auto asked = job.options.find("triangles"); asked != job.options.end()) {
     mesh.triangles = rule_of<Triangles>(asked->second);

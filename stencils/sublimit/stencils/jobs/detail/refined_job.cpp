@@ -38,6 +38,8 @@ void carry_attributes(const MeshJob& job, const std::vector<Level>& levels, Mesh
   carry_attributes(job.mesh, levels, values, out);
 }
 
+bool carries_face_attributes(const Mesh& mesh) { return has_face_attributes(mesh); }
+
 bool carries_attributes(const Mesh& mesh) {
   return has_face_attributes(mesh) || (!mesh.vertex_values.empty() && mesh.attributes != Attributes::drop);
 }

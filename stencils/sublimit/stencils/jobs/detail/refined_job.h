@@ -34,6 +34,8 @@ void carry_attributes(const MeshJob& job, const std::vector<Level>& levels, Mesh
                       const SparseMatrix* limit = nullptr);
 /// True if a mesh has values at vertices, or names or values of faces, that are to be carried on.
 bool carries_attributes(const Mesh& mesh);
+/// True if it has names or values of faces.
+bool carries_face_attributes(const Mesh& mesh);
 
 /// Returns level `levels` with remaining tags and attributes, without channels.
 /// @throws Error    as `refined_mesh`
