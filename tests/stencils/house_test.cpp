@@ -165,7 +165,7 @@ std::string product_of(const std::string& path) {
 /// base, which is for all of us. May only fall.
 const std::map<std::string, size_t> own_headers_of_others{
     {"cad", 3},     {"certificates", 13}, {"distributed", 21}, {"eval_gpu", 2},  {"implicit_mesh", 1}, {"lib", 1},
-    {"python", 15}, {"report", 45},       {"stencils", 57},    {"sublimit", 78}, {"sublimit-mpi", 7}};
+    {"python", 15}, {"report", 45},       {"stencils", 57},    {"sublimit", 77}, {"sublimit-mpi", 7}};
 
 TEST(House, WhatIsInstalledIncludesNothingElse) {
   const fs::path root = SUBLIMIT_SOURCE;

@@ -52,7 +52,7 @@ void emit_stl(const Mesh& mesh, RowWriter out) {
   });
 }
 
-void check(const Mesh& mesh, const std::string& name) {
+void check_stl(const Mesh& mesh, const std::string& name) {
   check_output(mesh, name);
   if (num_triangles(mesh) > std::numeric_limits<std::uint32_t>::max())
     throw ResourceError(name + ": " + format_number(num_triangles(mesh)) +
@@ -66,14 +66,14 @@ void check(const Mesh& mesh, const std::string& name) {
 }  // namespace
 
 std::string format_stl(const Mesh& mesh) {
-  check(mesh, "STL");
+  check_stl(mesh, "STL");
   std::string bytes;
   emit_stl(mesh, RowWriter(bytes));
   return bytes;
 }
 
 void write_stl(const std::filesystem::path& path, const Mesh& mesh, const std::function<void(std::int64_t)>& progress) {
-  check(mesh, path.string());
+  check_stl(mesh, path.string());
   AtomicFile file(path, progress);
   emit_stl(mesh, RowWriter(file));
   file.commit();

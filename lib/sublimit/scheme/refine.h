@@ -112,6 +112,7 @@ class ControlFaces {
   /// Goes on to the children.
   /// @param parent  connectivity before the step
   void follow(const Topology& parent, const Refinement& step);
+  /// Returns the face of the first level for each face of this one.
   const std::vector<Index>& faces() const { return faces_; }
 
  private:

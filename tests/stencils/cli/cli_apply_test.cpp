@@ -236,7 +236,7 @@ TEST(CliApply, RefusesOtherPoints) {
   write_npy(on.path("two.npy"), std::vector<double>(16), {8, 2});
   refused(on.path("two.npy"), out, 2, {"2 channels", ".csv"});
   refused(on.directory.write("nan.csv", "x,y\n1,nan\n").string(), on.path("out.csv"), 3, {"nan.csv:2"});
-  refused(on.mesh, on.path("out.stl"), 2, {"out.stl", ".obj"});
+  refused(on.mesh, on.path("out.dae"), 2, {"out.dae", ".obj"});
   refused(on.path("none.obj"), out, 3, {"none.obj"});
   refused(on.directory.write("points.txt", "1 2 3").string(), out, 3, {"points.txt", ".npy"});
   std::filesystem::resize_file(on.table, std::filesystem::file_size(on.table) / 2);

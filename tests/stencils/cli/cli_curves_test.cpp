@@ -106,7 +106,7 @@ TEST(CliCurves, WrongKindOfInput) {
   expect_refused("p.obj", square, {"-s", "loop"}, 3, {"p.obj", "polygon", "loop refines meshes", "four-point"});
   expect_refused("q.obj", quad, {"-s", "chaikin"}, 3, {"q.obj", "1 face", "no curves", "catmull-clark"});
   expect_refused("q.ply", "ply\n", {"-s", "chaikin"}, 3, {"q.ply", "a mesh", "chaikin refines curves"});
-  expect_refused("q.stl", "", {"-s", "chaikin"}, 3, {"'.stl'", ".csv and .obj"});
+  expect_refused("q.dae", "", {"-s", "chaikin"}, 3, {"'.dae'", ".csv and .obj"});
   expect_refused("p.csv", zigzag, {"-s", "chakin"}, 2, {"chakin", "chaikin", "sublimit schemes"});
   expect_refused("p.csv", zigzag, {"-s", "chaikin", "--boundary", "none"}, 2, {"--boundary", "meshes"});
   expect_refused("p.csv", zigzag, {"-s", "chaikin", "--face-varying", "none"}, 2, {"--face-varying", "meshes"});

@@ -94,7 +94,8 @@ TEST(CliPatchSurfaces, SayWhatIsForMeshes) {
     EXPECT_FALSE(std::filesystem::exists(arguments.back()));
   };
   refused({"tessellate", given, "--rates", shapes.path("rates.csv"), "-o", out}, 2, "--rates is for meshes");
-  refused({"tessellate", given, "--chord", "1%", "-o", shapes.path("out.vtu")}, 2, ".obj, .ply and .glb are right");
+  refused({"tessellate", given, "--chord", "1%", "-o", shapes.path("out.vtu")}, 2,
+          ".obj, .ply, .off, .stl and .glb are right");
   refused({"tessellate", given, "--chord", "1%", "-s", "loop", "-o", out}, 3, "free-form");
 }
 

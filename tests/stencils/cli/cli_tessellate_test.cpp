@@ -137,7 +137,7 @@ TEST(CliTessellate, HasNoFileForWhatCannotBeWritten) {
     expect_failure(sublimit(all), 2, parts);
     EXPECT_FALSE(std::filesystem::exists(out));
   };
-  refused("o.stl", {}, {".obj", ".ply", ".glb", ".vtu"});
+  refused("o.dae", {}, {".obj", ".ply", ".off", ".stl", ".glb", ".vtu"});
   refused("o.glb", {"--face-ids"}, {"--face-ids", ".vtu"});
   refused("o.vtu", {"--normals"}, {"--normals", "polynomials"});
   refused("o.vtu", {"--angle", "5"}, {"--angle"});

@@ -92,7 +92,8 @@ TEST(Program, RefusesBadMeshesWithFileAndLine) {
   expect_cli_refused("v 0 inf 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
   expect_cli_refused("v 0 1e999 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
   expect_cli_refused("v 0 x 0\n" + f + "f 1 2 3\n", "catmull-clark", 3, {"mesh.obj:1"});
-  expect_cli_refused(f + "f 1 2 3 4\nt crease 2/1/0 0 2 1\n", "catmull-clark", 3, {"mesh.obj:6"});
+  expect_cli_refused(f + "f 1 2 3 4\nt crease 2/1/0 0 2 1\n", "catmull-clark", 3, {"mesh.obj:6"},
+                     {"-l", "1", "--strict"});
   expect_cli_refused(f + "f 1 2 3 4\nt crease 2/1/0 0 7 1\n", "catmull-clark", 3, {"mesh.obj:6"});
   expect_cli_refused(f + "f 1 2 3 4\nt crease 2/1/0 0 1\n", "catmull-clark", 3, {"mesh.obj:6"});
   expect_cli_refused(f + "f 1 2 3 4\nt corner 1/1/0 0 -2\n", "catmull-clark", 3, {"mesh.obj:6"});
@@ -122,7 +123,7 @@ TEST(Program, RefusesFilesThatAreNotThere) {
   const auto refine_to = [&](const std::string& path) {
     return run({"refine", mesh, "-s", "catmull-clark", "-l", "1", "-o", path});
   };
-  EXPECT_EQ(refine_to((directory / "out.stl").string()).status, 2);
+  EXPECT_EQ(refine_to((directory / "out.dae").string()).status, 2);
   EXPECT_EQ(refine_to((directory / "none" / "out.obj").string()).status, 3);
   EXPECT_EQ(refine_to(mesh + "/out.obj").status, 3);         // below a file
   EXPECT_EQ(refine_to("/proc/sublimit_out.obj").status, 3);  // read-only, for root too

@@ -27,6 +27,7 @@ class EqualRows {
     return slot;
   }
 
+  /// Returns the rows, each once, in the order in which they came.
   const std::vector<Row>& rows() const { return rows_; }
 
  private:

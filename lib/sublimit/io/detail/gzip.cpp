@@ -60,7 +60,7 @@ class Inflater {
 
   // As much again, but never more than a job may take: what a file says of its size is not believed.
   void grow() {
-    const double most = std::min(memory_limit(), double(out_.max_size() / 2));
+    const double most = std::min(memory_limit(), double(out_.max_size()) / 2);
     const double wanted = std::max(65536.0, 2 * double(out_.size()));
     const auto next = static_cast<std::size_t>(std::min(wanted, most));
     if (next <= out_.size())

@@ -29,7 +29,7 @@ size_t find_call(std::string_view text, size_t from) {
 
 class Caller {
  public:
-  CalledText take(std::string text, const fs::path& path) {
+  CalledText take(const std::string& text, const fs::path& path) {
     add(text, path);
     return std::move(result_);
   }
@@ -43,11 +43,11 @@ class Caller {
     while (scanner.next_line()) {
       const auto line = scanner.line();
       if (scanner.token() != "call") continue;
-      std::string name = rest_of_line(scanner);  // to the end of the line
+      const std::string name = rest_of_line(scanner);  // to the end of the line
       const size_t end = std::min(text.find_first_of("\r\n", static_cast<size_t>(scanner.offset())), text.size());
       const size_t begin = find_call(text, done);
       put(text.substr(done, begin - done));
-      call(path, std::move(name), scanner.place(line));
+      call(path, name, scanner.place(line));
       begin_lines(path, scanner.line());
       done = end;
     }
@@ -55,7 +55,7 @@ class Caller {
     open_.pop_back();
   }
 
-  void call(const fs::path& from, std::string name, const std::string& place) {
+  void call(const fs::path& from, const std::string& name, const std::string& place) {
     fs::path path = from.parent_path() / name;
     std::error_code failed;
     if (!fs::is_regular_file(path, failed) && name.find(' ') != std::string::npos) {
@@ -102,7 +102,7 @@ class Caller {
 
 CalledText with_called_files(std::string text, const fs::path& path) {
   if (find_call(text, 0) == std::string::npos) return {std::move(text), {}, {}};
-  return Caller().take(std::move(text), path);
+  return Caller().take(text, path);
 }
 
 }  // namespace sublimit

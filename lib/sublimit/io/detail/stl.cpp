@@ -34,11 +34,11 @@ std::uint32_t load(std::string_view bytes, std::size_t at) {
 }
 
 /// Triangles whose equal corners become one vertex.
-class Triangles {
+class StlTriangles {
  public:
   using Corners = std::array<EqualRows::Row, 3>;
 
-  explicit Triangles(std::string_view name) : name_(name) {}
+  explicit StlTriangles(std::string_view name) : name_(name) {}
 
   /// Adds the next triangle of the file. Returns false if it was left out.
   bool add(const Corners& corners) {
@@ -86,9 +86,9 @@ Mesh read_binary(std::string_view bytes, std::string_view name) {
   if (count > room / triangle_size)
     throw FormatError(file + ": " + format_number(count) + " triangles cannot be in the " + format_number(room) +
                       " bytes that follow; each has 50, or as text the file should begin with 'solid'");
-  Triangles triangles(name);
+  StlTriangles triangles(name);
   for (std::size_t t = 0; t < count; ++t) {
-    Triangles::Corners corners;
+    StlTriangles::Corners corners;
     std::size_t at = header_size + count_size + t * triangle_size + 12;  // behind the normal
     for (EqualRows::Row& corner : corners)
       for (double& x : corner) {
@@ -150,7 +150,7 @@ class StlTextReader {
     for (int i = 0; i < 3; ++i) scanner_.real(scanner_.token_of_any_line(), "number of a normal");
     expect("outer");
     expect("loop");
-    Triangles::Corners corners;
+    StlTriangles::Corners corners;
     for (EqualRows::Row& corner : corners) {
       expect("vertex");
       constexpr const char* names[] = {"coordinate x", "coordinate y", "coordinate z"};
@@ -163,7 +163,7 @@ class StlTextReader {
   }
 
   TextScanner scanner_;
-  Triangles triangles_;
+  StlTriangles triangles_;
   ObjNames names_;
 };
 
