@@ -73,7 +73,7 @@ char* extend(std::string& out, std::size_t bytes) {
   return out.data() + size;
 }
 
-/// What is written beside positions and corners.
+/// Properties that are written beside positions and corners.
 struct Extras {
   std::vector<const Mesh::Values*> vertex_values, face_values;
   const Mesh::FaceVarying* texture = nullptr;  ///< null: none

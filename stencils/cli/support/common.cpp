@@ -79,7 +79,8 @@ void tell_left_out(const Common& common, const std::string& path, const Mesh& ou
   using enum MeshField;
   const FileFormat* const format = all_formats().find(path);
   std::vector<MeshField> fields = left_out(*format, out);
-  std::erase_if(fields, [](MeshField field) { return field == rules || field == comments; });  // which nobody gave
+  // Rules and comments are not in the file that was given: refinement adds them.
+  std::erase_if(fields, [](MeshField field) { return field == rules || field == comments; });
   if (out.face_varying.empty() && out.texture.rows() == 0 && !control.face_varying.empty() &&
       !all_formats().holds(path, face_varying))
     fields.push_back(face_varying);

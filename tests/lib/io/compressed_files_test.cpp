@@ -20,7 +20,7 @@
 namespace sublimit::testing {
 namespace {
 
-// Whatever can be read as a mesh, compressed under its name and under the name with .gz behind it.
+// Every format of meshes is read compressed, under its name and under the name with .gz behind it.
 TEST(CompressedFiles, MeshesOfAllFormatsAreRead) {
   const TemporaryDirectory directory;
   for (const std::string& extension : io_formats().readers({contents::meshes})) {

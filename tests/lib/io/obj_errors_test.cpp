@@ -173,7 +173,7 @@ TEST(ObjErrors, TagsThatPointNowhere) {
   });
 }
 
-// A crease without an edge, an index 0 that nobody needs: others write them, and the mesh is as it should be.
+// Other programs write creases without an edge and indices 0 that nobody needs; the mesh is as it should be.
 TEST(ObjErrors, WhatNeedsNoRefusalIsAWarning) {
   const auto warned = [](const std::string& text, size_t creases, const std::vector<std::string>& words) {
     const Mesh mesh = parse_obj(text, "a.obj");

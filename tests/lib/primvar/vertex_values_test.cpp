@@ -38,6 +38,9 @@ Mesh carrying(Mesh mesh) {
   return mesh;
 }
 
+/// Rounding of sums of a few values, which are coordinates.
+double of_sums(const Mesh& mesh) { return rounding(40, mesh.positions.cwiseAbs().maxCoeff()); }
+
 std::vector<Mesh> meshes(const Scheme<double>& scheme) {
   if (scheme.face_size() == 3) return {jittered(icosahedron()), jittered(triangle_grid(4, 3))};
   if (scheme.face_size() == 4) return {jittered(cube()), jittered(grid(4, 3))};
@@ -83,7 +86,7 @@ void expect_faces(const Mesh& out, const Mesh& control, const std::vector<Index>
 // Smooth values that are the coordinates stay these, by both ways to a level.
 TEST(VertexValues, AreRefinedAsPositionsAndFacesFollowTheirParents) {
   for_each_case([](const Scheme<double>& scheme, const Mesh& mesh) {
-    const double tolerance = rounding(40, mesh.positions.cwiseAbs().maxCoeff());
+    const double tolerance = of_sums(mesh);
     for (int k = 0; k <= 2; ++k) {
       const std::vector<Level> levels = refine(scheme, mesh, k);
       const Mesh fast = refined_mesh(scheme, mesh, k);
@@ -122,7 +125,7 @@ TEST(VertexValues, NamesStayWhereTheyAre) {
         };
         for (Index k = 0; k < 3; ++k) {
           const Eigen::RowVector3d a = corner((k + 1) % 3) - corner(k), b = middle - corner(k);
-          EXPECT_GT(a[0] * b[1] - a[1] * b[0], -1e-9) << name << " " << levels;
+          EXPECT_GT(a[0] * b[1] - a[1] * b[0], 0) << name << " " << levels;
         }
         ++inside;
       }
@@ -164,7 +167,7 @@ TEST(VertexValues, LinearOnesAreThoseOfTheLinearScheme) {
     for (Index e = 0; e < t.num_edges(); ++e) {
       const Eigen::RowVectorXd mean =
           (vertex_values(mesh).row(index(t.tail(Edge{e}))) + vertex_values(mesh).row(index(t.head(Edge{e})))) / 2;
-      EXPECT_LT((values.row(index(step.child(Edge{e}))) - mean).norm(), 1e-14);
+      EXPECT_LT((values.row(index(step.child(Edge{e}))) - mean).norm(), of_sums(mesh));
     }
     for (Index v = 0; v < t.num_vertices(); ++v)
       EXPECT_EQ(values.row(index(step.child(Vertex{v}))), vertex_values(mesh).row(v));
@@ -183,7 +186,7 @@ TEST(VertexValues, OfTheLimitAreTheLimitOfTheValues) {
     ASSERT_EQ(found.cols(), 4);
     for (Eigen::Index i = 0; i < found.rows(); ++i) {
       EXPECT_EQ(found.row(i).head(3), Eigen::RowVector3d(right(i, 2), right(i, 0), right(i, 1)));
-      EXPECT_NEAR(found(i, 3), 1, 1e-15);
+      EXPECT_NEAR(found(i, 3), 1, of_sums(mesh));
     }
     mesh.attributes = Attributes::linear;
     if (scheme.name == "doo-sabin") continue;
@@ -192,7 +195,7 @@ TEST(VertexValues, OfTheLimitAreTheLimitOfTheValues) {
     const auto corner = [&](Index k) { return Eigen::RowVectorXd(given.row(mesh.face_vertices[size_t(k)])); };
     const Eigen::RowVectorXd bilinear =
         (corner(0) * 3 + corner(1)) / 8 + (corner(3) * 3 + corner(2)) / 8;  // u = 1/4, v = 1/2 of face 0
-    EXPECT_LT((linear.row(0) - bilinear).norm(), 1e-14);
+    EXPECT_LT((linear.row(0) - bilinear).norm(), of_sums(mesh));
   }
 }
 

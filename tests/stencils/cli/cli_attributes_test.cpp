@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "stencils/cli_tables.h"
@@ -82,7 +83,7 @@ TEST(CliAttributes, NamesAndColoursGoThroughEveryVerb) {
       const Mesh made = read_mesh(out);
       EXPECT_GT(made.num_faces(), 6) << what;
       if (format == ".obj") expect_sides(made, what);
-      expect_places(made, 1e-6);  // colours are floats
+      expect_places(made, 2 * std::numeric_limits<float>::epsilon());  // colours are floats of 0 to 1
     };
     const std::string note =
         ": a PLY file has no place for groups, objects, materials and smoothing groups; written as .obj";

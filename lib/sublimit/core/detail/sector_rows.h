@@ -7,7 +7,7 @@
 //   B_k(i, j) = sum_t A(orbit_i[0], orbit_j[t]) w^(k t).
 //
 // An eigenvector x of B_k is one of A with the value x_i w^(k s) on slot s of orbit i. Fixed slots are only in block 0.
-// Those of a mirror are the even block (k = 0) and the odd one. Eigenvalues of a block are those of the strongly
+// The blocks of a mirror are the even one (k = 0) and the odd one. Eigenvalues of a block are those of the strongly
 // connected components of its pattern: the diagonal blocks of its block triangular form.
 #include <Eigen/Core>
 

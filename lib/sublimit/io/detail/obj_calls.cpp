@@ -87,7 +87,7 @@ class Caller {
       lines_ += text[i] == '\n' || (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n'));
     result_.text += text;
   }
-  /// What is put from here on are lines of a file.
+  /// Begins lines of a file: `put` adds them from here on.
   void begin_lines(const fs::path& path, std::int64_t line) {
     result_.origins.push_back({lines_ + 1, path.string(), line});
   }

@@ -222,9 +222,7 @@ void ObjTags::settle(const TextScanner& scanner, Mesh& mesh) const {
                       format_number(interval_edges[i].tail) + " and " + format_number(interval_edges[i].head) +
                       "; an interval is of an edge (ids in tags count from 0)");
   }
-  std::vector<std::string> places;
-  for (const std::int64_t line : crease_lines_) places.push_back(scanner.place(line));
-  drop_loose_creases(mesh, places);
+  drop_loose_creases(mesh, [&](std::size_t i) { return scanner.place(crease_lines_[i]); });
 }
 
 }  // namespace sublimit

@@ -37,10 +37,11 @@ Mesh parse_ply(std::string_view bytes, std::string_view name, std::span<const st
 
 /// Returns a mesh as the bytes of a file.
 ///
-/// Of values with the same name the last are written; `texture`, `face_ids` and normals take the place of values named
+/// Writes the last of values with the same name; `texture`, `face_ids` and normals take the place of values named
 /// `s`, `t`, `face_id`, `nx`, `ny` and `nz`.
 /// @throws InvalidParameter  normals per corner, arrays that do not fit together, names that a header cannot have
-/// @throws InvalidMesh       numbers that are not finite, or of texture coordinates beyond floats
+/// @throws InvalidMesh       coordinates that are not finite, values of integer types that are no number, or texture
+///                           coordinates beyond floats
 std::string format_ply(const Mesh& mesh);
 /// Writes a mesh to a file, which appears whole or not at all.
 void write_ply(const std::filesystem::path& path, const Mesh& mesh,

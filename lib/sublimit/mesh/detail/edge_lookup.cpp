@@ -69,7 +69,7 @@ std::vector<bool> along_edges(const Mesh& mesh, std::span<const Mesh::Crease> cr
   return found;
 }
 
-void drop_loose_creases(Mesh& mesh, std::span<const std::string> places) {
+void drop_loose_creases(Mesh& mesh, const std::function<std::string(std::size_t)>& place) {
   const std::vector<bool> found = along_edges(mesh, mesh.creases);
   constexpr std::size_t most = 20;
   std::size_t kept = 0, loose = 0;
@@ -78,14 +78,15 @@ void drop_loose_creases(Mesh& mesh, std::span<const std::string> places) {
     if (found[i]) {
       mesh.creases[kept++] = crease;
     } else if (++loose <= most) {
-      mesh.warnings.push_back(places[i] + "crease ignored: no face has an edge between vertices " +
+      mesh.warnings.push_back(place(i) + "crease ignored: no face has an edge between vertices " +
                               std::to_string(crease.tail) + " and " + std::to_string(crease.head) +
                               " (ids count from 0)");
     }
   }
   mesh.creases.resize(kept);
   if (loose > most)
-    mesh.warnings.push_back(places.back() + std::to_string(loose - most) + " further creases without an edge ignored");
+    mesh.warnings.push_back(place(found.size() - 1) + std::to_string(loose - most) +
+                            " further creases without an edge ignored");
 }
 
 std::vector<Mesh::Crease> edges_of(std::span<const Mesh::KnotInterval> intervals) {

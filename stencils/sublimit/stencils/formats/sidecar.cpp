@@ -56,7 +56,10 @@ class Sidecar {
                                                                             {"all", all}});
     if (object_.has("creaseIndices")) {
       mesh.creases = std::move(creases);
-      if (knows_edges_) drop_loose_creases(mesh, crease_places_);
+      if (knows_edges_)
+        drop_loose_creases(mesh, [&](std::size_t i) {
+          return object_.place() + ": " + JsonObject::entry("creaseIndices", crease_positions_[i]) + ": ";
+        });
     }
     if (object_.has("cornerIndices")) mesh.corners = std::move(corners);
     if (object_.has("knotIntervals")) mesh.knot_intervals = std::move(intervals);
@@ -130,7 +133,7 @@ class Sidecar {
         creases.push_back({.tail = ids[position],
                            .head = ids[position + 1],
                            .sharpness = sharpnesses[per_chain ? chain : creases.size()]});
-        crease_places_.push_back(object_.place() + ": " + JsonObject::entry("creaseIndices", position) + ": ");
+        crease_positions_.push_back(position);
       }
     }
     return creases;
@@ -199,7 +202,7 @@ class Sidecar {
   JsonObject object_;
   MeshCounts counts_;
   bool knows_edges_ = true;
-  std::vector<std::string> crease_places_;  // of each crease, for messages
+  std::vector<std::size_t> crease_positions_;  // of the tail of each crease in creaseIndices
 };
 
 /// Reports of this program may lie beside a mesh under its name; they say at once what they are.
