@@ -70,6 +70,8 @@ struct [[nodiscard]] Mesh {
   std::vector<KnotInterval> knot_intervals = {};  ///< 1 for edges whose strip has none
   std::vector<Index> holes = {};                  ///< faces that are refined but are not part of the limit
 
+  /// Name of the scheme that the mesh is for, if a file says it, or that made it; empty: unknown.
+  std::string scheme = {};
   /// Rules of refinement; if absent, edge_and_corner, uniform and catmark.
   std::optional<Boundary> boundary = {};
   std::optional<Creasing> creasing = {};

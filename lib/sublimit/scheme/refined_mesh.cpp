@@ -265,6 +265,7 @@ Mesh refine_steps(const Scheme<double>& scheme, const Mesh& mesh, int levels, co
   std::optional<ControlFaces> faces;  // absent if these carry nothing
   if (has_face_attributes(mesh)) faces.emplace(level.topology().num_faces());
   const auto finished = [&](Mesh refined) {
+    refined.scheme = scheme.name;
     refined.warnings = std::move(warnings);
     if (faces) carry_faces(mesh, faces->faces(), refined);
     return refined;
@@ -360,6 +361,7 @@ Mesh level_mesh(const Level& level, Points points, const Mesh& control, const Su
   const RemainingTags left = remaining_tags(level, control, options);
   mesh.boundary = left.boundary;
   if (level.sharpness.creasing == Creasing::chaikin) mesh.creasing = Creasing::chaikin;
+  mesh.scheme = level.made_by ? level.made_by->name : control.scheme;
   if (level.number == 0) mesh.triangles = control.triangles;
   mesh.holes = hole_list(level.holes);
   for (const Edge e : left.creases)

@@ -164,6 +164,7 @@ py::tuple state(const Mesh& mesh) {
   all["face_ids"] = array(std::vector<Index>(mesh.face_ids));
   all["carried"] = carried(mesh);
   all["comments"] = bytes(mesh.comments);
+  all["scheme"] = mesh.scheme;
   all["warnings"] = mesh.warnings;
   return py::make_tuple(all);
 }
@@ -190,6 +191,7 @@ Mesh from_state(const py::tuple& state) {
   mesh.attributes = rule<Attributes>(rules[4]);
   mesh.texture = points(all["texture"].cast<Array<double>>());
   mesh.comments = all["comments"].cast<std::vector<std::string>>();
+  mesh.scheme = all["scheme"].cast<std::string>();
   mesh.warnings = all["warnings"].cast<std::vector<std::string>>();
   return mesh;
 }
@@ -199,7 +201,7 @@ Mesh from_state(const py::tuple& state) {
 std::vector<std::string> warnings(const Mesh& mesh, const MeshRequest& request) {
   const MeshJob job = mesh_job(request, mesh, "mesh");
   std::vector<std::string> all = job.mesh.warnings;
-  for (std::string& fault : faults(job.mesh)) all.push_back(std::move(fault));
+  for (std::string& fault : faults(job.mesh, request.orient)) all.push_back(std::move(fault));
   return all;
 }
 
@@ -251,6 +253,7 @@ void add_meshes(py::module_& m) {
       .def_property_readonly("material_files", [](const Mesh& mesh) { return bytes(mesh.material_files); })
       .def_property_readonly("vertex_values", [](const py::object& self) { return values(self, &Mesh::vertex_values); })
       .def_property_readonly("face_values", [](const py::object& self) { return values(self, &Mesh::face_values); })
+      .def_readonly("scheme", &Mesh::scheme)
       .def_property_readonly("warnings", [](const Mesh& mesh) { return mesh.warnings; })
       .def(py::pickle(&state, &from_state))
       .def(

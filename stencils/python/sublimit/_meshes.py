@@ -239,6 +239,11 @@ class Mesh:
         return _values(self._core.face_values)
 
     @property
+    def scheme(self) -> str:
+        """Name of the scheme that the file says, as USD does, or that refined the mesh; empty if unknown."""
+        return self._core.scheme
+
+    @property
     def warnings(self) -> list[str]:
         """Reservations of the reader about the file, each with file:line, and of the function that made the mesh."""
         return self._core.warnings

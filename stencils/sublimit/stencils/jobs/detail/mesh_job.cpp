@@ -92,6 +92,7 @@ MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name)
   job.notes = mesh.notes;
   if (const auto asked = rule<Attributes>("attributes", request.attributes, attributes_words)) mesh.attributes = asked;
   if (request.no_creases) mesh = without_creases(std::move(mesh));
+  const std::size_t tagged_corners = mesh.corners.size();
   change_mesh(request, mesh, name, job.notes);
   if (request.triangulate) mesh = triangulated(mesh);
   if (const auto asked = job.options.find("triangles"); asked != job.options.end()) {
@@ -100,6 +101,11 @@ MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name)
     job.scheme = *AnyScheme(*std::move(job.scheme)).for_mesh(mesh);
     job.options = job.scheme->chosen;
   }
+  if (job.scheme) mesh.scheme = job.scheme->name;
+  if (request.boundary == fixed_boundary && job.scheme && job.scheme->is_dual() && mesh.corners.size() > tagged_corners)
+    throw InvalidOption("boundary 'fixed': " + job.scheme->name +
+                        " keeps no vertices, so that those of the border cannot stay; leave it out, or use a scheme "
+                        "that keeps them, such as catmull-clark or loop");
   if (job.rules.boundary) mesh.boundary = job.rules.boundary;
   if (job.rules.creasing) mesh.creasing = job.rules.creasing;
   if (!mesh.knot_intervals.empty() && job.scheme && job.scheme->knots == NewKnots::none)
@@ -108,7 +114,7 @@ MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name)
   if (!job.face_varying_asked) job.face_varying = mesh.face_varying_interpolation.value_or(job.face_varying);
   if (request.strict) {
     std::string all;
-    for (const std::string& fault : faults(mesh)) all += "\n  " + fault;
+    for (const std::string& fault : faults(mesh, request.orient)) all += "\n  " + fault;
     if (!all.empty()) throw InvalidMesh(name + ": not a clean manifold:" + all);
     for (const std::string& warning : mesh.warnings) all += "\n  " + warning;
     if (!all.empty()) throw InvalidMesh(name + ": refused, since it has warnings:" + all);
@@ -117,10 +123,16 @@ MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name)
   return job;
 }
 
-std::vector<std::string> faults(const Mesh& mesh) {
+std::vector<std::string> faults(const Mesh& mesh, bool turned) {
   const Topology topology(view(mesh));
   std::vector<std::string> all;
-  for (const Topology::Fault& fault : topology.faults()) all.push_back(fault.message);
+  for (const Topology::Fault& fault : topology.faults()) {
+    std::string message = fault.message;
+    if (turned && fault.kind == Topology::Fault::Kind::inconsistent_winding)
+      message.replace(message.rfind("; "), std::string::npos,
+                      "; turning faces does not help: the surface has a single side, as a Moebius band has");
+    all.push_back(std::move(message));
+  }
   return all;
 }
 
