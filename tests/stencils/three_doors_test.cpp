@@ -27,6 +27,7 @@
 #include "stencils/cli_program.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/schemes/schemes.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::testing {
 namespace {
@@ -69,6 +70,14 @@ Otherwise in_a_file(const std::string& words = {}) {
 Otherwise on_the_line(const std::string& words) {
   return says(Door::program, "it looks at its command line before it reads a file, and names the option", words);
 }
+/// The names of files that meshes are written to, as the program lists them.
+std::string words_of_writers() {
+  std::string words;
+  for (const std::string& extension : all_formats().writers({contents::meshes}))
+    words += (words.empty() ? "" : " or ") + extension;
+  return words;
+}
+
 Otherwise before_it_begins(const std::string& words) {
   return says(Door::program, "it looks at its files before it begins", words);
 }
@@ -1091,7 +1100,7 @@ TEST_F(ThreeDoors, RefuseFiles) {
        [&] { write_mesh("mesh.dae", cube()); },
        written("mesh.dae"),
        "cube.write('mesh.dae')",
-       {before_it_begins("cannot write mesh.dae: its name must end in .obj or .ply or .off or .stl")}},
+       {before_it_begins("cannot write mesh.dae: its name must end in " + words_of_writers())}},
       {"a place that there is not, to write",
        io_error,
        [&] { write_mesh("none/mesh.obj", cube()); },

@@ -4,11 +4,17 @@
 #include <algorithm>
 #include <array>
 
+#include "sublimit/io/detail/gltf.h"
+#include "sublimit/io/detail/gltf_layout.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/detail/off.h"
 #include "sublimit/io/detail/ply.h"
 #include "sublimit/io/detail/polygon_files.h"
 #include "sublimit/io/detail/stl.h"
+#include "sublimit/io/detail/usd.h"
+#include "sublimit/io/detail/usd_flat.h"
+#include "sublimit/io/detail/usd_stage.h"
+#include "sublimit/io/detail/usdz.h"
 #include "sublimit/mesh/detail/attributes.h"
 
 namespace sublimit {
@@ -69,9 +75,29 @@ bool begins_obj(const FileStart& start) {
 
 bool begins_off(const FileStart& start) { return parse_off_keyword(start.word).has_value(); }
 
+/// glTF in one of its two kinds of files, which hold the same.
+FileFormat gltf_row(FileFormat kind) {
+  using enum MeshField;
+  kind.reads = kind.writes = {{contents::meshes}};
+  kind.holds = {face_varying,   objects, materials,      MeshField::vertex_normals,
+                corner_normals, texture, vertex_colours, MeshField::vertex_values};
+  kind.keeps = {face_varying, objects, materials, vertex_colours, MeshField::vertex_values};
+  kind.texture_columns = 2;
+  kind.needs_normals = true;
+  kind.read_mesh = read_gltf;
+  kind.vertex_order = gltf_vertex_order;
+  return kind;
+}
+
 std::vector<FileFormat> rows() {
   using enum MeshField;
   using namespace contents;
+  const std::vector<MeshField> usd_fields_kept{creases,      corners,          knot_intervals, holes,
+                                               rules,        face_varying,     groups,         objects,
+                                               materials,    smoothing_groups, vertex_colours, MeshField::vertex_values,
+                                               face_colours, face_values};
+  std::vector<MeshField> usd_fields = usd_fields_kept;
+  usd_fields.insert(usd_fields.end(), {MeshField::vertex_normals, corner_normals, texture, face_ids, comments});
   return {
       {.name = "an OBJ file",
        .extensions = {".obj"},
@@ -97,7 +123,8 @@ std::vector<FileFormat> rows() {
        .keeps = {face_varying, vertex_colours, MeshField::vertex_values, face_colours, face_values},
        .texture_columns = 2,
        .read_mesh = read_ply,
-       .write_mesh = write_ply},
+       .write_mesh = write_ply,
+       .changes = changes_in_ply},
       {.name = "an OFF file",
        .extensions = {".off"},
        .begins = begins_off,
@@ -106,14 +133,44 @@ std::vector<FileFormat> rows() {
        .holds = {vertex_colours, face_colours},
        .keeps = {vertex_colours, face_colours},
        .read_mesh = read_off,
-       .write_mesh = write_off},
+       .write_mesh = write_off,
+       .changes = changes_in_off},
       {.name = "an STL file",
        .extensions = {".stl"},
        .begins = [](const FileStart& start) { return start.word == "solid" || is_binary_stl(start.bytes); },
        .reads = {{meshes}},
        .writes = {{meshes}},
        .read_mesh = read_stl,
-       .write_mesh = write_stl},
+       .write_mesh = write_stl,
+       .changes = changes_in_stl},
+      gltf_row({.name = "a glTF file",
+                .extensions = {".glb"},
+                .begins = [](const FileStart& start) { return start.bytes.starts_with("glTF"); },
+                .write_mesh = write_glb}),
+      gltf_row({.name = "a glTF file",
+                .extensions = {".gltf"},
+                .begins = [](const FileStart& start) { return begins_gltf(start.bytes); },
+                .write_mesh = write_gltf}),
+      {.name = "a USD file",
+       .extensions = {".usda", ".usd"},
+       .begins = [](const FileStart& start) { return start.bytes.starts_with("#usda") || is_usd_crate(start.bytes); },
+       .reads = {{meshes}, {scenes}},
+       .writes = {{meshes}, {scenes}},
+       .holds = usd_fields,
+       .keeps = usd_fields_kept,
+       .read_mesh = read_usd,
+       .write_mesh = write_usda,
+       .format_scene = flattened_text},
+      {.name = "a USD package",
+       .extensions = {".usdz"},
+       .begins = [](const FileStart& start) { return begins_usdz(start.bytes); },
+       .reads = {{meshes}, {scenes}},
+       .writes = {{meshes}, {scenes}},
+       .holds = usd_fields,
+       .keeps = usd_fields_kept,
+       .read_mesh = read_usd,
+       .write_mesh = write_usdz,
+       .format_scene = flattened_package},
       {.name = "a CSV file",
        .extensions = {".csv"},
        .begins = begins_csv,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Writes meshes to .obj, .ply, .off and .stl files.
+// Writes meshes to .obj, .ply, .off, .stl, .glb, .gltf, .usda and .usdz files.
 //
 //   write_mesh("fine.obj", refine(read_mesh("coarse.obj"), "loop", 2));
 #include <cstdint>
@@ -12,12 +12,18 @@
 
 namespace sublimit {
 
-/// Writes .obj, .ply, .off or .stl, by the extension of `path` in either case. The file appears whole or not at all.
+/// Writes .obj, .ply, .off, .stl, .glb, .gltf, .usda or .usdz, by the extension of `path` in either case. The file
+/// appears whole or not at all.
 ///
 /// OBJ holds tags, names of faces, the first face-varying channel as `vt` of 1 to 3 columns, and normals, which
 /// are left out at faces that lack one at a corner. PLY holds texture coordinates and normals of vertices, numbers of
 /// faces, values of both in their types, and the first face-varying channel if it has 2 columns, as floats. OFF holds
 /// colours. STL holds triangles alone, as floats: polygons are cut into fans.
+///
+/// glTF holds triangles as floats, in a node for each object and a primitive for each material; normals, texture
+/// coordinates, colours and values of vertices, which are split where corners differ. Polygons are cut into triangles
+/// within the face and marked as parts of it (FB_ngon_encoding), so that `read_mesh` makes faces of them again; other
+/// programs show triangles. Colours are written as they are; glTF takes them for linear ones, cut off at 0 and 1.
 /// @param progress  called with the number of bytes written so far, if given
 /// @throws InvalidOption     another extension
 /// @throws InvalidMesh       faces and tags that `refine` refuses, in the same words; coordinates that are not finite

@@ -13,8 +13,7 @@
 #include "sublimit/stencils/files/rate_files.h"
 #include "sublimit/stencils/files/tessellation_mesh.h"
 #include "sublimit/stencils/formats/formats.h"
-#include "sublimit/stencils/formats/glb.h"
-#include "sublimit/stencils/formats/split_mesh.h"
+#include "sublimit/io/detail/split_mesh.h"
 #include "sublimit/stencils/formats/vtu.h"
 #include "sublimit/stencils/jobs/detail/refined_job.h"
 #include "sublimit/tessellation/detail/bezier_cells.h"
@@ -22,6 +21,7 @@
 #include "sublimit/tessellation/detail/triangle_shapes.h"
 #include "support/free_form.h"
 #include "support/source.h"
+#include "support/facts.h"
 
 namespace sublimit::cli {
 namespace {
@@ -71,9 +71,15 @@ int write_cells(const TessellateOptions& options, const Loaded& loaded, const Li
   Mesh carried = loaded.mesh;
   carried.creases.clear(), carried.corners.clear(), carried.knot_intervals.clear(), carried.holes.clear();
   if (carried.attributes != Attributes::drop) tell_left_out(options.common, options.output, carried, {});
-  if (!options.common.quiet)
-    fmt::print("{}: {} exact Bezier cells, {} bilinear ones where the limit is no polynomial, at most {} from it\n",
-               options.output, cells.exact, std::ssize(cells.cells) - cells.exact, format_number(cells.bound));
+  Facts facts("tessellate");
+  facts.say(
+      "{output}: {exact_cells} exact Bezier cells, {bilinear_cells} bilinear ones where the limit is no polynomial, at "
+      "most {bound} from it\n",
+      {{"output", options.output},
+       {"exact_cells", cells.exact},
+       {"bilinear_cells", std::ssize(cells.cells) - cells.exact},
+       {"bound", cells.bound}});
+  facts.print(options.common);
   return 0;
 }
 
@@ -94,16 +100,25 @@ void add_texture(const TessellateOptions& options, const Loaded& loaded, const L
 /// @param surface  what triangles are near
 void print_summary(const TessellateOptions& options, const Tessellation& made, const char* surface) {
   const TriangleShapes shapes = triangle_shapes(made);
-  fmt::print("{}: {} triangles, {} points", options.output, made.triangles.size(), made.places.size());
+  Facts facts("tessellate");
+  facts.say("{output}: {triangles} triangles, {points} points",
+            {{"output", options.output}, {"triangles", made.triangles.size()}, {"points", made.places.size()}});
   if (!options.chord.empty())
-    fmt::print(" in {} cells, at most {} from the {}\n", made.cells, format_number(made.bound), surface);
+    facts.say(" in {cells} cells, at most {bound} from the {surface}\n",
+              {{"cells", made.cells}, {"bound", made.bound}, {"surface", surface}});
   else
-    fmt::print(" by the rates of edges\n");
-  if (made.triangles.empty()) return;
-  fmt::print("aspect ratios (longest side over shortest height): median {:.3g}, largest {:.3g}", shapes.median_aspect,
-             shapes.largest_aspect);
-  if (shapes.without_area > 0) fmt::print("; {} triangles have no area", shapes.without_area);
-  fmt::print("\n");
+    facts.say(" by the rates of edges\n");
+  if (!made.triangles.empty()) {
+    facts.say(
+        "aspect ratios (longest side over shortest height): median {median_aspect_ratio}, largest "
+        "{largest_aspect_ratio}",
+        {three_digits("median_aspect_ratio", shapes.median_aspect),
+         three_digits("largest_aspect_ratio", shapes.largest_aspect)});
+    if (shapes.without_area > 0)
+      facts.say("; {triangles_without_area} triangles have no area", {{"triangles_without_area", shapes.without_area}});
+    facts.say("\n");
+  }
+  facts.print(options.common);
 }
 
 /// Checks options that need no surface.
@@ -115,22 +130,29 @@ TessellationOptions checked(const TessellateOptions& options, bool is_mesh) {
   if (options.chord.empty() && !options.angle.empty()) throw InvalidOption("--angle goes with --chord");
   if (!options.chord.empty())
     distance_option("--chord", options.chord, 1);  // a wrong number is told before the mesh is read
-  check_output_path(options.output, all_formats().writers({contents::meshes, contents::viewed, contents::cells}));
+  check_output_path(options.output, all_formats().writers({contents::meshes, contents::cells}));
   const bool are_cells = all_formats().writes(options.output, contents::cells);
   if (!is_mesh && !options.rates.empty())
     throw InvalidOption("--rates is for meshes: it has segments of their edges; --chord is for patches too");
   if (!is_mesh && are_cells)
     throw InvalidOption(fmt::format("{}: cells of patches are not written as {}; {} are right", options.output,
                                     listed(all_formats().writers({contents::cells}), "or"),
-                                    listed(all_formats().writers({contents::meshes, contents::viewed}), "and")));
+                                    all_formats().writers_in_words({contents::meshes}, "and")));
   if (are_cells) check_triangle_options(options);
   if (options.face_ids && !all_formats().holds(options.output, MeshField::face_ids))
-    throw InvalidOption("--face-ids: glTF has no values of triangles; " +
-                        listed(all_formats().holders(MeshField::face_ids), "and") + " have");
-  if (!options.places.empty()) check_output_path(options.places, all_formats().writers({contents::rows}));
-  // Viewers shade a .glb flat without normals.
-  wanted.normals = options.normals || all_formats().writes(options.output, contents::viewed);
+    throw InvalidOption(fmt::format("--face-ids: {} has no {}; {} have", all_formats().find(options.output)->name,
+                                    name_of(MeshField::face_ids),
+                                    listed(all_formats().holders(MeshField::face_ids), "and")));
+  if (!options.places.empty())
+    check_output_path(options.places, all_formats().writers({contents::rows, contents::arrays}));
+  wanted.normals = options.normals || all_formats().find(options.output)->needs_normals;
   return wanted;
+}
+
+/// True if triangles without an area get some normal.
+bool fills_normals(const TessellateOptions& options) {
+  return all_formats().find(options.output)->needs_normals ||
+         !all_formats().holds(options.output, MeshField::corner_normals);
 }
 
 /// The chord as a length.
@@ -143,27 +165,35 @@ double chord_of(const TessellateOptions& options, const Points& control) {
   return chord;
 }
 
+/// The places of vertices in the order of a file whose writer splits vertices.
+std::vector<Place> ordered_places(const FileFormat& format, const Mesh& out, const Tessellation& made) {
+  const std::vector<Place> places = places_of(split_mesh(out), made);
+  std::vector<Place> ordered;
+  for (const Index v : format.vertex_order(out)) ordered.push_back(places[size_t(v)]);
+  return ordered;
+}
+
 /// Writes the triangles, and their places if these are asked for.
 /// @param surface  what they are near
 void write_triangles(const TessellateOptions& options, const Tessellation& made, Mesh out, const Mesh& control,
                      const char* surface, Progress& progress) {
   progress.step("writing " + options.output);
   std::vector<Place> places = made.places;  // in the order of the file's vertices
-  if (!all_formats().holds(options.output, MeshField::corner_normals) &&
-      !(out.face_varying.empty() && out.face_normals.empty())) {
+  const FileFormat& format = *all_formats().find(options.output);
+  if (format.vertex_order) {
+    if (!options.places.empty()) places = ordered_places(format, out, made);
+  } else if (!all_formats().holds(options.output, MeshField::corner_normals) &&
+             !(out.face_varying.empty() && out.face_normals.empty())) {
     SplitMesh split = split_mesh(std::move(out));
     out = std::move(split.mesh);
     places = places_of(split, made);
   }
   if (all_formats().writes(options.output, contents::vertex_values)) add_places(out, places);
-  if (all_formats().writes(options.output, contents::viewed))
-    write_glb(options.output, out, progress.bytes_written());
-  else
-    write_mesh(options.output, out, progress.bytes_written());
+  write_mesh(options.output, out, progress.bytes_written());
   if (!options.places.empty()) write_places(options.places, places);
   progress.step("");
   tell_left_out(options.common, options.output, out, control);
-  if (!options.common.quiet) print_summary(options, made, surface);
+  print_summary(options, made, surface);
 }
 
 int tessellate_patches(const TessellateOptions& options, TessellationOptions wanted, const Source& source) {
@@ -180,8 +210,7 @@ int tessellate_patches(const TessellateOptions& options, TessellationOptions wan
     out = tessellation_mesh(made);
     if (options.face_ids)
       for (const Tessellation::Triangle& t : made.triangles) out.face_ids.push_back(t.face);
-    if (wanted.normals)
-      add_normals(out, made, std::move(made.normals), !all_formats().holds(options.output, MeshField::corner_normals));
+    if (wanted.normals) add_normals(out, made, std::move(made.normals), fills_normals(options));
   });
   write_triangles(options, made, std::move(out), {}, "patches", progress);
   return 0;
@@ -212,8 +241,7 @@ int run(const TessellateOptions& options) {
     carry_attributes(*loaded.scheme, loaded.mesh, *surface, made, out);
     add_texture(options, loaded, *surface, made, out);
     if (wanted.normals && by_rates) made.normals = surface->evaluate(control, corner_places(made), 1).normal;
-    if (wanted.normals)
-      add_normals(out, made, std::move(made.normals), !all_formats().holds(options.output, MeshField::corner_normals));
+    if (wanted.normals) add_normals(out, made, std::move(made.normals), fills_normals(options));
   });
   write_triangles(options, made, std::move(out), loaded.mesh, "limit", progress);
   return 0;
@@ -227,6 +255,7 @@ Command add_tessellate(CLI::App& app) {
   auto options = std::make_shared<TessellateOptions>();
   add_mesh(*command, options->common, false);
   add_attributes(*command, options->common);
+  add_json(*command, options->common);
   command->add_option(
       "--chord", options->chord,
       "Largest distance of triangles from the surface: in the unit of MESH, or as 0.1% of its diagonal");

@@ -15,6 +15,7 @@
 #include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::testing {
 namespace {
@@ -87,7 +88,7 @@ TEST(CliInput, NoMesh) {
                   "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
                   {"none.ply", "no elements 'face'"});
   expect_rejected("none.off", "OFF\n1 0 0\n0 0 0\n", {"none.off", "no faces"});
-  expect_rejected("mesh.dae", quad, {"mesh.dae", "'.dae'", ".obj, .ply, .off and .stl"});
+  expect_rejected("mesh.dae", quad, {"mesh.dae", "'.dae'", all_formats().readers_in_words({contents::meshes}, "and")});
   expect_rejected("mesh.dae.gz", quad, {"mesh.dae.gz", "'.dae.gz'"});
 }
 
@@ -97,8 +98,8 @@ TEST(CliInput, BinaryGarbage) {
       "ELF\x02\x01\x01"s +
       std::string(64, '\0');
   for (int i = 0; i < 2000; ++i) bytes += char(i * 97 % 251);
-  for (const char* name : {"garbage.obj", "garbage.ply", "garbage.off", "garbage.stl"})
-    expect_rejected(name, bytes, {name});
+  for (const std::string& extension : all_formats().readers({contents::meshes}))
+    expect_rejected("garbage" + extension, bytes, {"garbage" + extension});
 }
 
 TEST(CliInput, Indices) {
@@ -251,11 +252,14 @@ TEST(CliOutput, PipeThatItsReaderClosesIsAnError) {
 TEST(CliOutput, NamesAreCheckedBeforeWorkStarts) {
   const TemporaryDirectory directory;
   const std::string missing = (directory / "missing.obj").string();  // what is wrong with the output is told first
+  std::string writers;
+  for (const std::string& extension : all_formats().writers({contents::meshes}))
+    writers += (writers.empty() ? "" : " or ") + extension;
   for (const char* command : {"refine", "limit"}) {
     expect_failure(sublimit({command, missing, "-s", "loop", "-l", "1", "-o", (directory / "out.dae").string()}), 2,
-                   {"out.dae", ".obj or .ply or .off or .stl"});
+                   {"out.dae", writers});
     expect_failure(sublimit({command, missing, "-s", "loop", "-l", "1", "-o", (directory / "out.obj.gz").string()}), 2,
-                   {"out.obj.gz", ".obj or .ply or .off or .stl; compressed files are read, not written"});
+                   {"out.obj.gz", writers + "; compressed files are read, not written"});
     expect_failure(sublimit({command, missing, "-s", "loop", "-l", "1", "-o", (directory / "a" / "out.obj").string()}),
                    3, {"out.obj", "is not a directory"});
   }

@@ -10,6 +10,7 @@
 #include "sublimit/io/free_form.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/mesh/topology.h"
+#include "sublimit/stencils/formats/formats.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -95,7 +96,7 @@ TEST(CliPatchSurfaces, SayWhatIsForMeshes) {
   };
   refused({"tessellate", given, "--rates", shapes.path("rates.csv"), "-o", out}, 2, "--rates is for meshes");
   refused({"tessellate", given, "--chord", "1%", "-o", shapes.path("out.vtu")}, 2,
-          ".obj, .ply, .off, .stl and .glb are right");
+          all_formats().writers_in_words({contents::meshes}, "and") + " are right");
   refused({"tessellate", given, "--chord", "1%", "-s", "loop", "-o", out}, 3, "free-form");
 }
 

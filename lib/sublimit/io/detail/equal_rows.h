@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-// Numbers for rows of three numbers by their values: equal rows have the same one. For files without shared vertices,
-// and for values of corners that are the same at a vertex.
+// Numbers for rows of three or more numbers by their values: equal rows have the same one. For files without shared
+// vertices, and for values of corners that are the same at a vertex.
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -11,10 +11,11 @@
 
 namespace sublimit {
 
-/// Rows of three finite numbers, each once, in the order in which they were first added. Zero has no sign.
-class EqualRows {
+/// Rows of `N` finite numbers, each once, in the order in which they were first added. Zero has no sign.
+template <std::size_t N>
+class EqualRowsOf {
  public:
-  using Row = std::array<double, 3>;
+  using Row = std::array<double, N>;
 
   /// Returns the number of a row, which is a new one if no equal row was added before.
   Index add(const Row& row) {
@@ -22,7 +23,8 @@ class EqualRows {
     Index& slot = slots_[find(row)];
     if (slot < 0) {
       slot = static_cast<Index>(rows_.size());
-      rows_.push_back({row[0] + 0, row[1] + 0, row[2] + 0});
+      rows_.push_back(row);
+      for (double& x : rows_.back()) x += 0;  // -0 + 0 is +0
     }
     return slot;
   }
@@ -34,7 +36,7 @@ class EqualRows {
   static std::uint64_t hash(const Row& row) {
     std::uint64_t h = 0;
     for (const double x : row) {
-      h = (h ^ std::bit_cast<std::uint64_t>(x + 0)) * 0x9E3779B97F4A7C15u;  // -0 + 0 is +0
+      h = (h ^ std::bit_cast<std::uint64_t>(x + 0)) * 0x9E3779B97F4A7C15u;
       h ^= h >> 32;
     }
     return h;
@@ -56,5 +58,7 @@ class EqualRows {
   std::vector<Row> rows_;
   std::vector<Index> slots_;  // a power of two, at most half of them taken; -1: empty
 };
+/// Rows of three numbers.
+using EqualRows = EqualRowsOf<3>;
 
 }  // namespace sublimit

@@ -5,7 +5,7 @@
 // choice of both, lists in messages and checks of names come from the table.
 //
 //   if (const FileFormat* format = io_formats().reader(path, contents::meshes)) return format->read_mesh(path);
-//   io_formats().readers({contents::meshes})  // ".obj", ".ply", ".off", ".stl"
+//   io_formats().readers({contents::meshes})  // ".obj", ".ply", ".off", ".stl", ...
 //
 // Formats of `lib` are in formats.cpp; the offline part adds its own (stencils/formats/formats.h).
 #include <cstdint>
@@ -23,6 +23,8 @@
 
 namespace sublimit {
 
+class UsdStage;
+
 /// Something that files hold and that a reader or writer is for.
 struct Content {
   std::string_view name;    ///< in the plural
@@ -39,6 +41,7 @@ inline constexpr Content polygons{"polygons", true};                   ///< read
 inline constexpr Content tangents{"polygons with tangents", true};     ///< polygons, with tangents and in any dimension
 inline constexpr Content free_form{"free-form curves, surfaces", true};  ///< read_free_form, write_free_form
 inline constexpr Content rows{"rows of numbers"};                        ///< lines of numbers below a header
+inline constexpr Content scenes{"scenes"};               ///< `flatten`: meshes in a whole, which stays
 inline constexpr Content cad{"CAD files"};                               ///< boundary models: faces with shared edges
 inline constexpr Content step{"STEP files"};  ///< of CAD files those of ISO 10303, which have names
 }  // namespace contents
@@ -93,10 +96,18 @@ struct FileFormat {
   std::vector<MeshField> holds = {};  ///< fields of a mesh that files hold; others are left out or refused
   std::vector<MeshField> keeps = {};  ///< of these, fields that `read_mesh` returns as they were written
   int texture_columns = 0;            ///< columns that a face-varying channel must have; 0: 1 to 3
+  bool needs_normals = false;         ///< other programs show surfaces in facets if files have no normals
 
   /// Reader and writer of meshes; null if there is none.
   Mesh (*read_mesh)(const std::filesystem::path&) = nullptr;
   void (*write_mesh)(const std::filesystem::path&, const Mesh&, const std::function<void(std::int64_t)>&) = nullptr;
+  /// Returns what the writer changes of the fields that files hold, a sentence each; null if nothing.
+  std::vector<std::string> (*changes)(const Mesh&) = nullptr;
+  /// Where the writer splits vertices whose corners differ: those of `split_vertices` in the order of files.
+  std::vector<Index> (*vertex_order)(const Mesh&) = nullptr;
+  /// Returns the bytes of a scene whose first layer has another text; null if there is none.
+  std::string (*format_scene)(const UsdStage&, const std::string& layer, const std::string& name,
+                              std::vector<std::string>& warnings) = nullptr;
   /// Reader and writer of polygons, from and to text; null if there is none.
   ControlPolygon (*parse_polygon)(std::string_view text, std::string_view name, bool tangents) = nullptr;
   std::string (*format_polygon)(const ControlPolygon&) = nullptr;

@@ -5,7 +5,7 @@
 
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/primvar/face_varying.h"
-#include "sublimit/stencils/formats/split_mesh.h"
+#include "sublimit/io/detail/split_mesh.h"
 #include "sublimit/tessellation/tessellate.h"
 
 namespace sublimit {

@@ -6,6 +6,9 @@ namespace {
 
 bool begins_json(const FileStart& start) { return start.line.starts_with('{') || start.line.starts_with('['); }
 bool begins_xml(const FileStart& start) { return start.line.starts_with('<'); }
+bool begins_vtk(const FileStart& start) {
+  return begins_xml(start) && start.bytes.find("<VTKFile") != std::string_view::npos;
+}
 
 /// The length of a header that begins with a brace, in eight bytes.
 bool begins_safetensors(const FileStart& start) {
@@ -34,14 +37,9 @@ std::vector<FileFormat> rows() {
        .extensions = {".mtx"},
        .begins = [](const FileStart& start) { return start.line.starts_with("%%MatrixMarket"); },
        .writes = {{matrices}, {table_rows, ".mtx (Matrix Market)"}}},
-      {.name = "a glTF file",
-       .extensions = {".glb"},
-       .begins = [](const FileStart& start) { return start.bytes.starts_with("glTF"); },
-       .writes = {{viewed}},
-       .holds = {MeshField::vertex_normals, MeshField::texture}},
-      {.name = "an XML or HTML file",
+      {.name = "a VTK file",
        .extensions = {".vtu"},
-       .begins = begins_xml,
+       .begins = begins_vtk,
        .writes = {{cells}},
        .holds = {MeshField::face_ids}},
       {.name = "an XML or HTML file", .extensions = {".html", ".htm"}, .begins = begins_xml, .writes = {{pages}}},

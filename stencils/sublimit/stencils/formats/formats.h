@@ -9,16 +9,15 @@
 namespace sublimit {
 
 namespace contents {
-inline constexpr Content arrays{"arrays"};                 ///< points by channels, also in many frames
-inline constexpr Content matrices{"matrices"};             ///< sparse matrices
-inline constexpr Content tables{"tables"};                 ///< what `sublimit bake` writes
-inline constexpr Content table_rows{"rows of tables"};     ///< tables as matrices for other programs
-inline constexpr Content viewed{"triangles for viewers"};  ///< which shade triangles flat if they have no normals
-inline constexpr Content cells{"Bezier cells"};            ///< polynomials of a surface
-inline constexpr Content recipes{"recipes"};               ///< of curves, surfaces and fields
-inline constexpr Content reports{"reports"};               ///< results as data
-inline constexpr Content jobs{"jobs"};                     ///< one a line
-inline constexpr Content pages{"pages"};                   ///< reports for people
+inline constexpr Content arrays{"arrays"};              ///< points by channels, also in many frames
+inline constexpr Content matrices{"matrices"};          ///< sparse matrices
+inline constexpr Content tables{"tables"};              ///< what `sublimit bake` writes
+inline constexpr Content table_rows{"rows of tables"};  ///< tables as matrices for other programs
+inline constexpr Content cells{"Bezier cells"};         ///< polynomials of a surface
+inline constexpr Content recipes{"recipes"};            ///< of curves, surfaces and fields
+inline constexpr Content reports{"reports"};            ///< results as data
+inline constexpr Content jobs{"jobs"};                  ///< one a line
+inline constexpr Content pages{"pages"};                ///< reports for people
 inline constexpr Content pictures{"pictures"};
 }  // namespace contents
 

@@ -4,9 +4,28 @@
 // whose corners have several values, are split into several vertices.
 #include <vector>
 
-#include "sublimit/io/write_mesh.h"
+#include "sublimit/mesh/mesh.h"
 
 namespace sublimit {
+
+/// Vertices of a mesh so split that each has one normal and one value.
+struct SplitVertices {
+  /// A vertex of the file.
+  struct Vertex {
+    Index source;  ///< vertex of the mesh
+    Index value;   ///< row of the channel, -1 for none
+    Index normal;  ///< row of the normals per corner, -1 for none
+    Index corner;  ///< the first corner there
+    Index side;    ///< the first corner with this normal; -1 where the source has one normal
+  };
+  std::vector<Vertex> vertices;  ///< by their sources, which ascend
+  std::vector<Index> corners;    ///< vertex of each corner
+};
+
+/// Splits the vertices of a mesh. Vertices in no face are left out.
+/// @param channel  values of corners; null for none
+/// @note  Normals of a vertex less than about 1e-4 radians apart are treated as one, the first.
+SplitVertices split_vertices(const Mesh& mesh, const Mesh::FaceVarying* channel);
 
 struct SplitMesh {
   Mesh mesh;                   ///< normals and `texture` per vertex

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sublimit/stencils/formats/split_mesh.h"
+#include "sublimit/io/detail/split_mesh.h"
 
 #include <algorithm>
 #include <numeric>
@@ -51,34 +51,46 @@ class Variants {
 
 }  // namespace
 
-SplitMesh split_mesh(Mesh mesh) {
-  const bool per_corner = !mesh.face_normals.empty(), has_values = !mesh.face_varying.empty();
+SplitVertices split_vertices(const Mesh& mesh, const Mesh::FaceVarying* channel) {
   Variants variants(static_cast<Index>(mesh.positions.rows()), mesh.normals);
-  std::vector<Index> corners;
-  corners.reserve(mesh.face_vertices.size());
+  SplitVertices split;
+  split.corners.reserve(mesh.face_vertices.size());
   for (size_t c = 0; c < mesh.face_vertices.size(); ++c)
-    corners.push_back(variants.number(mesh.face_vertices[c], has_values ? mesh.face_varying[0].indices[c] : -1,
-                                      per_corner ? mesh.face_normals[c] : -1, static_cast<Index>(c)));
+    split.corners.push_back(variants.number(mesh.face_vertices[c], channel ? channel->indices[c] : -1,
+                                            mesh.face_normals.empty() ? -1 : mesh.face_normals[c],
+                                            static_cast<Index>(c)));
   std::vector<Index> order(variants.all().size()), place(order.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::stable_sort(order, {}, [&](Index i) { return variants.all()[size_t(i)].source; });
   for (size_t k = 0; k < order.size(); ++k) place[size_t(order[k])] = static_cast<Index>(k);
+  for (Index& corner : split.corners) corner = place[size_t(corner)];
+  split.vertices.reserve(order.size());
+  for (const Index i : order) {
+    const Variants::Variant& v = variants.all()[size_t(i)];
+    split.vertices.push_back({v.source, v.value, v.normal, v.corner, variants.side(v)});
+  }
+  return split;
+}
+
+SplitMesh split_mesh(Mesh mesh) {
+  const bool per_corner = !mesh.face_normals.empty(), has_values = !mesh.face_varying.empty();
+  SplitVertices vertices = split_vertices(mesh, has_values ? mesh.face_varying.data() : nullptr);
 
   SplitMesh split;
   split.mesh = mesh;
   Mesh& out = split.mesh;
   out.face_normals.clear();
   out.face_varying.clear();
-  std::ranges::transform(corners, out.face_vertices.begin(), [&](Index c) { return place[size_t(c)]; });
-  const auto count = static_cast<Eigen::Index>(order.size());
+  out.face_vertices = std::move(vertices.corners);
+  const auto count = std::ssize(vertices.vertices);
   out.positions.resize(count, 3);
   out.normals.resize(mesh.normals.rows() > 0 ? count : 0, 3);
   out.texture = Points::Zero(has_values ? count : 0, 2);
   for (Mesh::Values& one : out.vertex_values) one.values.clear();
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Variants::Variant& v = variants.all()[size_t(order[size_t(k)])];
+    const SplitVertices::Vertex& v = vertices.vertices[size_t(k)];
     split.sources.push_back(v.source);
-    split.sides.push_back(variants.side(v));
+    split.sides.push_back(v.side);
     out.positions.row(k) = mesh.positions.row(v.source);
     for (size_t i = 0; i < out.vertex_values.size(); ++i)
       out.vertex_values[i].values.push_back(mesh.vertex_values[i].values[size_t(v.source)]);
