@@ -7,6 +7,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/free_form_counts.h"
 #include "sublimit/io/detail/obj_keywords.h"
+#include "sublimit/io/detail/obj_names.h"
 #include "sublimit/io/free_form.h"
 
 namespace sublimit {
@@ -31,7 +32,8 @@ class FreeFormOutputCheck {
     require_finite(shapes_.parameter_weights);
     for (const FreeFormMatrix& matrix : shapes_.matrices) require_finite(matrix.values);
     for (const std::string& name : shapes_.names)
-      require(name.find_first_of("#\r\n") == std::string::npos, "a name is one line without '#'");
+      require(name.find_first_of("\r\n") == std::string::npos && !has_comment(name),
+              "a name is one line without '#' behind a blank");
     for (const FreeFormCurve& curve : shapes_.curves) check(curve, shapes_.vertices.rows());
     for (const FreeFormCurve& curve : shapes_.curves_2d) check(curve, shapes_.parameters.rows());
     for (const FreeFormSurface& surface : shapes_.surfaces) check(surface);

@@ -32,6 +32,17 @@ class ColourWords {
   }
   bool any() const { return !channels_.empty(); }
 
+  /// Returns how many numbers are cut off.
+  std::int64_t num_cut() const {
+    std::int64_t cut = 0;
+    for (const Mesh::Values* const channel : channels_)
+      for (std::size_t i = 0; i < channel->values.size(); ++i) {
+        const double value = whole_ ? std::round(channel->values[i]) / 255 : colour_in_unit(*channel, i);
+        cut += !(value >= 0 && value <= 1);
+      }
+    return cut;
+  }
+
   void append(std::string& out, std::size_t i) const {
     for (const Mesh::Values* const channel : channels_) {
       out += ' ';
@@ -84,6 +95,18 @@ void emit_off(const Mesh& mesh, RowWriter out) {
 }
 
 }  // namespace
+
+std::vector<std::string> changes_in_off(const Mesh& mesh) {
+  std::vector<std::string> changes;
+  const auto add = [&](const std::vector<Mesh::Values>& values, const char* of) {
+    if (const std::int64_t cut = ColourWords(values).num_cut(); cut > 0)
+      changes.push_back("numbers of colours of " + std::string(of) + " beyond 0 to 1, " + format_number(cut) +
+                        " of them, are cut off; a .ply of type float or double keeps them");
+  };
+  add(mesh.vertex_values, "vertices");
+  add(mesh.face_values, "faces");
+  return changes;
+}
 
 std::string format_off(const Mesh& mesh) {
   check_output(mesh, "OFF");

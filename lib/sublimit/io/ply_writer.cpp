@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/ply.h"
@@ -77,6 +78,7 @@ char* extend(std::string& out, std::size_t bytes) {
 struct Extras {
   std::vector<const Mesh::Values*> vertex_values, face_values;
   const Mesh::FaceVarying* texture = nullptr;  ///< null: none
+  std::vector<std::string> dropped;            ///< names that are taken: those of values which are left out
 
   explicit Extras(const Mesh& mesh) {
     std::vector<std::string_view> taken;
@@ -91,14 +93,16 @@ struct Extras {
 
  private:
   /// A file has each name once: that of values which come later or have a field of their own.
-  static std::vector<const Mesh::Values*> named(const std::vector<Mesh::Values>& all,
-                                                const std::vector<std::string_view>& taken) {
+  std::vector<const Mesh::Values*> named(const std::vector<Mesh::Values>& all,
+                                         const std::vector<std::string_view>& taken) {
     std::vector<const Mesh::Values*> kept;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const auto has_name = [&](const Mesh::Values& other) { return other.name == all[i].name; };
       if (std::ranges::find(taken, all[i].name) == taken.end() &&
           std::none_of(all.begin() + std::ptrdiff_t(i) + 1, all.end(), has_name))
         kept.push_back(&all[i]);
+      else
+        dropped.push_back(all[i].name);
     }
     return kept;
   }
@@ -221,6 +225,25 @@ void check(const Mesh& mesh, const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<std::string> changes_in_ply(const Mesh& mesh) {
+  std::vector<std::string> changes;
+  const Extras extras(mesh);
+  for (const std::string& name : extras.dropped)
+    changes.push_back("values " + in_quotes(name) + " are left out: the file has other numbers of that name");
+  for (const std::vector<const Mesh::Values*>* const values : {&extras.vertex_values, &extras.face_values})
+    for (const Mesh::Values* const one : *values) {
+      const PlyRange range = range_of(one->type);
+      const auto beyond = std::ranges::count_if(one->values, [&](double x) {
+        const double written = is_integer(one->type) ? std::nearbyint(x) : x;
+        return std::isfinite(x) && (written < range.least || written > range.most);
+      });
+      if (beyond > 0)
+        changes.push_back("values " + in_quotes(one->name) + " beyond the type " + range.name + ", " +
+                          format_number(beyond) + " of them, are cut off");
+    }
+  return changes;
+}
 
 std::string format_ply(const Mesh& mesh) {
   check(mesh, "PLY");

@@ -7,6 +7,8 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
+#include "sublimit/io/detail/equal_rows.h"
+#include "sublimit/io/detail/face_triangles.h"
 #include "sublimit/io/detail/stl.h"
 #include "sublimit/io/detail/writer_parts.h"
 #include "sublimit/io/write_mesh.h"
@@ -20,7 +22,7 @@ void append_bytes(std::string& out, std::uint32_t value) {
   for (int i = 0; i < 4; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
 }
 
-/// Triangles of the fans of all faces.
+/// Triangles of all faces.
 std::int64_t num_triangles(const Mesh& mesh) {
   return std::ssize(mesh.face_vertices) - 2 * std::ssize(mesh.face_sizes);
 }
@@ -42,11 +44,15 @@ void emit_stl(const Mesh& mesh, RowWriter out) {
   const std::vector<std::size_t> first = first_corners(mesh.face_sizes, faces_per_block);
   out.rows(std::ssize(mesh.face_sizes), faces_per_block, [&](std::string& bytes, std::int64_t begin, std::int64_t end) {
     const Index* vertex = mesh.face_vertices.data() + first[static_cast<std::size_t>(begin / faces_per_block)];
+    FaceTriangles triangles;
     for (std::int64_t f = begin; f < end; ++f) {
       const Index size = mesh.face_sizes[static_cast<std::size_t>(f)];
-      for (Index i = 1; i + 1 < size; ++i)
-        append_triangle(bytes, mesh.positions.row(vertex[0]), mesh.positions.row(vertex[i]),
-                        mesh.positions.row(vertex[i + 1]));
+      const auto corner = [&](Index i) { return mesh.positions.row(vertex[i]); };
+      if (size == 3)
+        append_triangle(bytes, corner(0), corner(1), corner(2));
+      else
+        for (const auto& [a, b, c] : triangles.cut(mesh.positions, {vertex, static_cast<std::size_t>(size)}))
+          append_triangle(bytes, corner(a), corner(b), corner(c));
       vertex += size;
     }
   });
@@ -64,6 +70,20 @@ void check_stl(const Mesh& mesh, const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<std::string> changes_in_stl(const Mesh& mesh) {
+  EqualRows exact, rounded;
+  for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) {
+    const double* const x = mesh.positions.row(v).data();
+    exact.add({x[0], x[1], x[2]});
+    rounded.add({double(float(x[0])), double(float(x[1])), double(float(x[2]))});
+  }
+  const std::size_t lost = exact.rows().size() - rounded.rows().size();
+  if (lost == 0) return {};
+  return {format_number(lost) + " of " + format_number(exact.rows().size()) +
+          " different points become equal to another one in its numbers of 32 bits; move the mesh nearer to the "
+          "origin, or write a .ply"};
+}
 
 std::string format_stl(const Mesh& mesh) {
   check_stl(mesh, "STL");

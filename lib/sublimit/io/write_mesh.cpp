@@ -10,6 +10,7 @@
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/formats.h"
 #include "sublimit/io/detail/gzip.h"
+#include "sublimit/io/detail/obj_names.h"
 #include "sublimit/mesh/detail/attributes.h"
 #include "sublimit/mesh/detail/check_mesh.h"
 
@@ -59,9 +60,10 @@ bool in_range(const std::vector<Index>& ids, Index first, Eigen::Index count) {
 }
 
 void check_name(const std::string& text, const std::string& name, const char* what) {
-  if (text.find_first_of("#\n\r") != std::string::npos || text.ends_with('\\'))
-    throw InvalidParameter(name + ": a " + what +
-                           " has a character that OBJ has no way to write: the end of a line, # or a last \\");
+  if (has_comment(text) || text.find_first_of("\n\r") != std::string::npos || text.ends_with('\\'))
+    throw InvalidParameter(
+        name + ": a " + what +
+        " has a character that OBJ has no way to write: the end of a line, # behind a blank or a last \\");
 }
 
 /// Whether no face has fewer than three corners, nor one at a vertex that there is not.

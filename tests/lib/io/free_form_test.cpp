@@ -502,7 +502,7 @@ TEST(FreeForm, RandomShapesReadBackToTheSameBits) {
 
 TEST(FreeForm, NamesThatEndInABackslashDoNotContinueALine) {
   const FreeForm shapes =
-      parse_free_form("v 0 0 0\nv 1 2 3\ng a\\#\ncstype bezier\ndeg 1\ncurv 0 1 1 2\nparm u 0 1\nend\n", "a.obj");
+      parse_free_form("v 0 0 0\nv 1 2 3\ng a\\ #\ncstype bezier\ndeg 1\ncurv 0 1 1 2\nparm u 0 1\nend\n", "a.obj");
   EXPECT_EQ(shapes.names, std::vector<std::string>{"a\\"});
   expect_same(shapes, parse_free_form(format_free_form(shapes), "written.obj"));
 }

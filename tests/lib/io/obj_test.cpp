@@ -5,10 +5,13 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "sublimit/base/detail/format_number.h"
+#include "sublimit/base/detail/memory.h"
+#include "support/expect_error.h"
 #include "support/temporary_directory.h"
 
 namespace sublimit::testing {
@@ -99,6 +102,62 @@ TEST(Obj, GroupsNameFacesAndObjectsThoseWithoutGroup) {
   EXPECT_EQ(names_of_faces("g left  side # words\n" + f + "g \\\nleft side\n" + f),
             Names({"", "left side", "left side"}));
   EXPECT_EQ(names_of_faces("g a\ng b\ng\n" + f), Names());
+}
+
+// A # inside of a name is part of it; behind a blank it begins a comment.
+TEST(Obj, NamesMayHaveNumberSigns) {
+  const std::string f = "f 1 2 3\n";
+  const Mesh mesh = parse_obj("mtllib a#b.mtl # of materials\n" + square +
+                                  "usemtl a#1\no part#2 # two\ng x#y z#\ns #\n" + f + "usemtl a#2\n" + f,
+                              "a.obj");
+  EXPECT_EQ(mesh.materials.names, (std::vector<std::string>{"a#1", "a#2"}));
+  EXPECT_EQ(mesh.material_files, std::vector<std::string>{"a#b.mtl"});
+  EXPECT_EQ(mesh.objects.names, std::vector<std::string>{"part#2"});
+  EXPECT_EQ(mesh.groups.names, std::vector<std::string>{"x#y z#"});
+  EXPECT_TRUE(mesh.smoothing_groups.of_face.empty());
+  const Mesh again = parse_obj(format_obj(mesh), "b.obj");
+  EXPECT_EQ(again.materials.names, mesh.materials.names);
+  EXPECT_EQ(again.materials.of_face, mesh.materials.of_face);
+  EXPECT_EQ(again.groups.names, mesh.groups.names);
+  EXPECT_EQ(again.material_files, mesh.material_files);
+  for (const char* const name : {"#1", "a #1"}) {
+    Mesh other = mesh;
+    other.materials.names[0] = name;
+    expect_error<InvalidParameter>([&] { (void)format_obj(other); }, {"OBJ has no way to write", "# behind a blank"});
+  }
+  // Lines are counted in the same way for readers of parts.
+  EXPECT_EQ(count_obj("g a# \\\nb\nv 0 0 0\nf 1 2 3\n").vertices, 1);
+  EXPECT_EQ(count_obj("g a#b \\\nv 0 0 0\nv 0 0 0\n").vertices, 1);
+}
+
+TEST(Obj, WeightsAreNotLeftOutInSilence) {
+  const Mesh mesh = parse_obj("v 1 2 3 1\nv 4 5 6 0.5\nv 7 8 9 2\nf 1 2 3\n", "a.obj");
+  EXPECT_EQ(mesh.warnings,
+            std::vector<std::string>{"a.obj:2: weight 0.5 behind a vertex left out, and any others; a mesh "
+                                     "has none, free-form surfaces have"});
+  EXPECT_TRUE(parse_obj("v 1 2 3 1\nv 4 5 6 1.0\nv 7 8 9\nf 1 2 3\n", "a.obj").warnings.empty());
+}
+
+// Digits that floats do not hold are kept, and the type of the values says so.
+TEST(Obj, ColoursHaveTheTypeOfTheirDigits) {
+  const auto type = [](const std::string& red) {
+    return parse_obj("v 0 0 0 " + red + " 0 1\nv 1 0 0 0 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n", "a.obj")
+        .vertex_values.at(0)
+        .type;
+  };
+  for (const char* const red : {"0.5", "0.1", "0.784314", "1e-3", "0"}) EXPECT_EQ(type(red), ValueType::float32) << red;
+  for (const char* const red : {"0.12345678901", "1e300"}) EXPECT_EQ(type(red), ValueType::float64) << red;
+}
+
+// A text of 8 bytes a vertex makes coordinates of 24.
+TEST(Obj, TakesNoMoreMemoryThanAJobMay) {
+  std::string text;
+  for (int i = 0; i < 200000; ++i) text += "v 0 0 0\n";
+  limit_memory(double(3 * text.size()));
+  expect_error<ResourceError>([&] { (void)parse_obj(text + "f 1 2 3\n", "a.obj"); },
+                              {"a.obj: the text, ", " vertices and 0 faces to begin with take about ",
+                               "the limit is 4.8 MB", "a smaller mesh can be read"});
+  limit_memory(std::numeric_limits<double>::infinity());
 }
 
 TEST(Obj, NamesOfFacesAreThereOnce) {

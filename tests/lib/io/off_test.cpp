@@ -99,22 +99,31 @@ TEST(Off, NormalsComeBeforeColoursAndTheseBeforeTextureCoordinates) {
     const std::string n = end + normal, c = end + colour, a = end + colour + alpha, t = end + texture;
     for (const auto& [text, channels] : std::vector<std::pair<std::string, std::size_t>>{
              {triangle("NOFF", {n}), 0},
-             {triangle("STOFF", {t}), 0},
-             {triangle("STNOFF", {n, t}), 0},
+             {triangle("STOFF", {t}), 2},
+             {triangle("STNOFF", {n, t}), 2},
              {triangle("CNOFF", {n, c}), 3},
              {triangle("CNOFF", {n, a}), 4},
-             {triangle("STCOFF", {c, t}), 3},
-             {triangle("STCOFF", {a, t}), 4},
-             {triangle("STCNOFF", {n, c, t}), 3},
-             {triangle("STCNOFF", {n, a, t}), 4},
+             {triangle("STCOFF", {c, t}), 5},
+             {triangle("STCOFF", {a, t}), 6},
+             {triangle("STCNOFF", {n, c, t}), 5},
+             {triangle("STCNOFF", {n, a, t}), 6},
          }) {
       SCOPED_TRACE(text);
       const Mesh mesh = parse_off(text, "a.off");
       EXPECT_EQ(mesh.positions.row(2), Eigen::RowVector3d(0, 1, 0));
       EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2}));
       ASSERT_EQ(mesh.vertex_values.size(), channels);
-      for (std::size_t k = 0; k < channels; ++k)
+      const bool has_texture = text.starts_with("ST"), has_normals = text.find("NOFF") != std::string::npos;
+      const std::size_t colours = has_texture ? channels - 2 : channels;
+      for (std::size_t k = 0; k < colours; ++k)
         EXPECT_EQ(mesh.vertex_values[k].values, std::vector<double>(3, 10.0 * double(k + 1)));
+      if (has_texture) {
+        expect_channel(mesh.vertex_values[colours], "s", {0.5, 0.5, 0.5}, ValueType::float64);
+        expect_channel(mesh.vertex_values[colours + 1], "t", {7, 7, 7}, ValueType::float64);
+      }
+      EXPECT_EQ(mesh.notes, has_normals ? std::vector<std::string>{"a.off: normals of vertices left out; those of the "
+                                                                   "surface are used instead"}
+                                        : std::vector<std::string>());
       EXPECT_TRUE(mesh.warnings.empty());
     }
   }
@@ -126,6 +135,47 @@ TEST(Off, NumbersThatTheKeywordDoesNotAnnounceAreIgnored) {
   EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2}));
   ASSERT_EQ(mesh.warnings.size(), 1u);
   EXPECT_EQ(mesh.warnings[0], "a.off:3: vertices of 7 numbers; those that the keyword does not announce are ignored");
+}
+
+// A cube on one line: behind each face stands the next one, which is no colour.
+TEST(Off, FacesMayShareALine) {
+  const std::string corners = " 0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1",
+                    faces = " 4 0 3 2 1 4 4 5 6 7 4 0 1 5 4 4 1 2 6 5 4 2 3 7 6 4 3 0 4 7";
+  const Ids expected{0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
+  for (const std::string& text : {"OFF 8 6 12" + corners + faces, "OFF\n8 6 12\n" + corners + "\n" + faces + "\n",
+                                  "OFF 8 6 12" + corners + " 4 0 3 2 1 4 4 5\n6 7" + faces.substr(20)}) {
+    SCOPED_TRACE(text);
+    const Mesh mesh = parse_off(text, "a.off");
+    EXPECT_EQ(mesh.face_vertices, expected);
+    EXPECT_EQ(mesh.num_faces(), 6);
+    EXPECT_TRUE(mesh.face_values.empty());
+    EXPECT_TRUE(mesh.warnings.empty());
+  }
+  // Neither way: the message is about lines.
+  expect_error<FormatError>([&] { (void)parse_off("OFF 8 7 12" + corners + faces, "a.off"); },
+                            {"a.off:1: the file ends at face 1 of 7"});
+  expect_error<FormatError>([&] { (void)parse_off("OFF 8 5 12" + corners + faces, "a.off"); },
+                            {"a.off:1: the file ends at face 1 of 5"});
+}
+
+// Digits that floats do not hold are kept, and the type says so.
+TEST(Off, ColoursHaveTheTypeOfTheirDigits) {
+  EXPECT_EQ(parse_off(triangle("COFF", {" 0.1 0 1"}), "a.off").vertex_values[0].type, ValueType::float32);
+  const Mesh fine = parse_off(triangle("COFF", {" 0.1234567890123 0 1"}), "a.off");
+  expect_channel(fine.vertex_values[0], "red", std::vector<double>(3, 0.1234567890123), ValueType::float64);
+  EXPECT_EQ(parse_off(format_off(fine), "b.off").vertex_values[0].values, fine.vertex_values[0].values);
+}
+
+TEST(Off, WhatIsCutOffIsTold) {
+  Mesh mesh = parse_off(triangle("COFF", {" 0.5 0 1"}), "a.off");
+  EXPECT_TRUE(changes_in_off(mesh).empty());
+  mesh.vertex_values[0].values = {-0.25, 1, 1.5};
+  EXPECT_EQ(changes_in_off(mesh),
+            std::vector<std::string>{"numbers of colours of vertices beyond 0 to 1, 2 of them, are cut off; a .ply of "
+                                     "type float or double keeps them"});
+  for (Mesh::Values& one : mesh.vertex_values) one = {one.name, {-0.4, 255.4, 255.6}, ValueType::uint8};
+  ASSERT_EQ(changes_in_off(mesh).size(), 1u);
+  EXPECT_NE(changes_in_off(mesh)[0].find("3 of them"), std::string::npos);
 }
 
 TEST(Off, ColoursOfFacesAreKeptIfAllFacesHaveOne) {

@@ -179,6 +179,46 @@ TEST(PlyValues, NumbersThatAreNotFiniteAreLeftOut) {
                 "a.ply:11: number 'area' of faces is -inf at 0 and is left out; it should be finite everywhere"}));
 }
 
+// Numbers of a text that other programs would read as other ones.
+TEST(PlyValues, NumbersOfTextsAreWithinTheirTypes) {
+  const auto file = [](const std::string& type, const std::string& number) {
+    return text_header("element vertex 3\n" + corners + "property " + type + " q\nelement face 1\n" + list) + "0 0 0 " +
+           number + "\n1 0 0 0\n0 1 0 0\n3 0 1 2\n";
+  };
+  const auto reads = [&](const std::string& type, const std::string& number) {
+    return parse_ply(file(type, number), "a.ply").vertex_values.at(0).values.at(0);
+  };
+  const auto refuses = [&](const std::string& type, const std::string& number, const std::string& range) {
+    expect_error<FormatError>(
+        [&] { (void)parse_ply(file(type, number), "a.ply"); },
+        {"a.ply:11: number " + number + " is beyond the type " + type + " of the header; " + range});
+  };
+  EXPECT_EQ(reads("uchar", "255"), 255);
+  EXPECT_EQ(reads("float", "3.4e38"), 3.4e38);
+  refuses("uchar", "300", "0 to 255 are in it");
+  refuses("uchar", "-1", "0 to 255");
+  refuses("char", "128", "-128 to 127");
+  refuses("short", "-32769", "-32768 to 32767");
+  refuses("ushort", "65536", "0 to 65535");
+  refuses("int", "2147483648", "-2147483648 to 2147483647");
+  refuses("uint", "4294967296", "0 to 4294967295");
+  refuses("uint", "nan", "0 to 4294967295");
+  refuses("float", "1e+39", "-3.4028234663852886e+38 to 3.4028234663852886e+38");
+  expect_error<FormatError>([&] { (void)reads("double", "1e400"); }, {"a.ply:11: number '1e400' is too large"});
+}
+
+TEST(PlyValues, WhatAWriterChangesIsTold) {
+  Mesh mesh = two_triangles();
+  mesh.face_values = {{"face_id", {0.5, 0.5}}, {"heat", {1, 1e39}, ValueType::float32}};
+  mesh.vertex_values = {{"red", {-0.4, 255.4, 255.6, -1}, ValueType::uint8}};
+  EXPECT_EQ(changes_in_ply(mesh),
+            (std::vector<std::string>{"values 'red' beyond the type uchar, 2 of them, are cut off",
+                                      "values 'heat' beyond the type float, 1 of them, are cut off"}));
+  mesh.face_ids = {3, 4};
+  EXPECT_EQ(changes_in_ply(mesh)[0], "values 'face_id' are left out: the file has other numbers of that name");
+  EXPECT_TRUE(changes_in_ply(two_triangles()).empty());
+}
+
 TEST(PlyValues, NamesAreOnceInAFileAndAreWords) {
   Mesh mesh = two_triangles();
   mesh.vertex_values = {{"s", {1, 1, 1, 1}}, {"heat", {1, 2, 3, 4}}, {"heat", {5, 6, 7, 8}}};

@@ -197,6 +197,40 @@ TEST(Stl, PolygonsAreWrittenAsFans) {
                             {"STL: vertex 4 has a coordinate beyond the numbers of 32 bits", "write a .ply"});
 }
 
+// An arrow head, whose area is 2 - 1 = 1: a fan around its first corner would cover the notch twice.
+TEST(Stl, PolygonsThatAreNotConvexAreCutInside) {
+  Mesh mesh;
+  mesh.positions.resize(4, 3);
+  mesh.face_sizes = {4};
+  mesh.face_vertices = {0, 1, 2, 3};
+  for (int first = 0; first < 4; ++first) {
+    const double arrow[4][2] = {{0, 0}, {2, 1}, {0, 2}, {1, 1}};
+    for (int i = 0; i < 4; ++i) mesh.positions.row(i) << arrow[(i + first) % 4][0], arrow[(i + first) % 4][1], 0;
+    const std::string bytes = format_stl(mesh);
+    const Mesh read = parse_stl(bytes, "a.stl");
+    ASSERT_EQ(read.num_faces(), 2);
+    double area = 0;
+    for (std::size_t t = 0; t < 2; ++t) {
+      EXPECT_EQ(number(bytes, 92 + 50 * t), 1) << first;  // the normal looks up
+      const auto corner = [&](std::size_t i) { return read.positions.row(read.face_vertices[3 * t + i]); };
+      area += ((corner(1) - corner(0)).head<2>()[0] * (corner(2) - corner(0))[1] -
+               (corner(1) - corner(0))[1] * (corner(2) - corner(0))[0]) /
+              2;
+    }
+    EXPECT_EQ(area, 1);
+  }
+}
+
+// Around 1e8 floats are 8 apart.
+TEST(Stl, PointsThatBecomeEqualAreTold) {
+  Mesh mesh = cube();
+  EXPECT_TRUE(changes_in_stl(mesh).empty());
+  mesh.positions.col(0).array() += 1e8;
+  ASSERT_EQ(changes_in_stl(mesh).size(), 1u);
+  EXPECT_EQ(changes_in_stl(mesh)[0].substr(0, 73),
+            "4 of 8 different points become equal to another one in its numbers of 32 ");
+}
+
 TEST(Stl, FilesAreTheSameForAnyNumberOfThreads) {
   const TemporaryDirectory directory;
   const Mesh mesh = torus(80, 70);

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <deque>
 #include <limits>
 #include <new>
 
@@ -29,28 +30,29 @@ class Inflater {
 
   std::string read() {
     while (at_ < bytes_.size()) {
+      if (at_ > 0 && bytes_.find_first_not_of('\0', at_) == std::string_view::npos)
+        break;  // blocks of tapes, as gzip(1)
       if (!is_gzip(bytes_.substr(at_))) fail("bytes that are no gzip file, behind the end of one; cut them off");
       read_member();
       inflateReset(&stream_);
     }
-    out_.resize(size_);
-    return std::move(out_);
+    return joined();
   }
 
  private:
   void read_member() {
     for (int status = Z_OK; status != Z_STREAM_END;) {
-      if (size_ == out_.size()) grow();
+      if (used_ == last_.size()) grow();
       constexpr std::size_t most = std::numeric_limits<uInt>::max();
       const auto given = static_cast<uInt>(std::min(most, bytes_.size() - at_));
-      const auto room = static_cast<uInt>(std::min(most, out_.size() - size_));
+      const auto room = static_cast<uInt>(std::min(most, last_.size() - used_));
       stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes_.data() + at_));
       stream_.avail_in = given;
-      stream_.next_out = reinterpret_cast<Bytef*>(out_.data() + size_);
+      stream_.next_out = reinterpret_cast<Bytef*>(last_.data() + used_);
       stream_.avail_out = room;
       status = inflate(&stream_, Z_NO_FLUSH);
       at_ += given - stream_.avail_in;
-      size_ += room - stream_.avail_out;
+      used_ += room - stream_.avail_out;
       if (status == Z_MEM_ERROR) throw std::bad_alloc();
       if (status == Z_OK || status == Z_STREAM_END) continue;
       if (status != Z_BUF_ERROR) fail("compressed bytes are damaged (" + std::string(stream_.msg) + "); copy it again");
@@ -58,15 +60,28 @@ class Inflater {
     }
   }
 
-  // As much again, but never more than a job may take: what a file says of its size is not believed.
+  // What a file says of its size is not believed. Blocks are not moved when more is needed, and the last copy of all
+  // gives them back one by one: never is there more than the text, a block and the compressed bytes.
   void grow() {
-    const double most = std::min(memory_limit(), double(out_.max_size()) / 2);
-    const double wanted = std::max(65536.0, 2 * double(out_.size()));
-    const auto next = static_cast<std::size_t>(std::min(wanted, most));
-    if (next <= out_.size())
-      throw ResourceError(name_ + ": inflates to more than " + bytes_in_words(double(out_.size())) + "; " +
+    constexpr std::size_t least = 1 << 16, most = 1 << 24;
+    const std::size_t next = std::clamp(size() / 4, least, most);
+    if (double(bytes_.size()) + double(size()) + 2.0 * double(next) > memory_limit())
+      throw ResourceError(name_ + ": inflates to more than " + bytes_in_words(double(size())) + "; " +
                           memory_limit_in_words() + "; a smaller file can be read");
-    out_.resize(next);
+    if (!last_.empty()) full_.push_back(std::move(last_));
+    full_bytes_ += used_;
+    last_ = std::string(next, '\0');
+    used_ = 0;
+  }
+
+  std::size_t size() const { return full_bytes_ + used_; }
+
+  std::string joined() {
+    std::string all;
+    all.reserve(size());
+    for (; !full_.empty(); full_.pop_front()) all += full_.front();
+    last_.resize(used_);
+    return all.empty() ? std::move(last_) : all += last_;
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -75,8 +90,10 @@ class Inflater {
 
   std::string_view bytes_;
   std::string name_;
-  std::size_t at_ = 0, size_ = 0;  // read, written
-  std::string out_;
+  std::size_t at_ = 0;  // bytes read
+  std::deque<std::string> full_;
+  std::string last_;
+  std::size_t full_bytes_ = 0, used_ = 0;  // in the full blocks, in the last one
   z_stream stream_{};
 };
 

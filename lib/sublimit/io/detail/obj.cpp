@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "sublimit/base/detail/format_number.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/obj_calls.h"
+#include "sublimit/io/detail/decimals.h"
 #include "sublimit/io/detail/gzip.h"
 #include "sublimit/io/detail/obj_indices.h"
 #include "sublimit/io/detail/obj_keywords.h"
@@ -32,8 +34,9 @@ class ObjReader {
     scanner_.set_origins(std::move(origins));
   }
 
-  /// @param warnings  that come first
+  /// @param warnings  that come first: of lines that are left out
   Mesh read(std::vector<std::string> warnings = {}) {
+    if (!warnings.empty()) left_out_ = "; " + warnings.front();
     mesh_.warnings = std::move(warnings);
     read_lines();
     finish();
@@ -80,11 +83,22 @@ class ObjReader {
   }
 
   void read_vertex() {
+    make_room(coordinates_.size() == coordinates_.capacity());
     for (const char* const what : {"coordinate x", "coordinate y", "coordinate z"}) {
       coordinates_.push_back(scanner_.finite(scanner_.token(), what));
     }
     read_colour();
     ++num_vertices_;
+  }
+
+  // Lists that double are there twice meanwhile: a short text can be a large mesh.
+  void make_room(bool grows) const {
+    if (!grows || coordinates_.size() + mesh_.face_vertices.size() < std::size_t{1} << 16) return;
+    const double lists =
+        3.0 * double(sizeof(double) * coordinates_.size() + sizeof(Index) * mesh_.face_vertices.size());
+    check_memory(scanner_.name() + ": the text, " + format_number(coordinates_.size() / 3) + " vertices and " +
+                     format_number(mesh_.face_sizes.size()) + " faces to begin with",
+                 double(scanner_.offset() + scanner_.rest()) + lists, "a smaller mesh can be read");
   }
 
   // Three or four numbers behind the coordinates are a colour; a single one is a weight, which a mesh has no use for.
@@ -95,6 +109,9 @@ class ObjReader {
       const double number = scanner_.real(token, "number behind a vertex");
       if (count < colour.size()) colour[count] = number;
     }
+    if (count == 1 && colour[0] != 1 && !std::exchange(warned_of_weight_, true))
+      mesh_.warnings.push_back(scanner_.place() + "weight " + format_number(colour[0]) +
+                               " behind a vertex left out, and any others; a mesh has none, free-form surfaces have");
     if (count < 3) {
       if (colours_.line_without < 0) colours_.line_without = scanner_.line();
       return;
@@ -119,6 +136,7 @@ class ObjReader {
   }
 
   void read_face() {
+    make_room(mesh_.face_vertices.size() == mesh_.face_vertices.capacity());
     const std::int64_t line = scanner_.line();
     std::int64_t size = 0;
     for (std::string_view token; !(token = scanner_.token()).empty(); ++size) read_corner(token);
@@ -180,8 +198,9 @@ class ObjReader {
     if (mesh_.face_sizes.empty() && elements_.has_free_form())
       throw InvalidMesh(scanner_.place(elements_.first_free_form) + "the file holds " + elements_.free_form() +
                         ", which are free-form statements, and no mesh; a mesh has lines 'f a b c ...'");
-    if (num_vertices_ == 0) throw InvalidMesh(name + ": no vertices; an OBJ mesh has lines 'v x y z'");
-    if (mesh_.face_sizes.empty()) throw InvalidMesh(name + ": no faces; an OBJ mesh has lines 'f a b c ...'");
+    if (num_vertices_ == 0) throw InvalidMesh(name + ": no vertices; an OBJ mesh has lines 'v x y z'" + left_out_);
+    if (mesh_.face_sizes.empty())
+      throw InvalidMesh(name + ": no faces; an OBJ mesh has lines 'f a b c ...'" + left_out_);
     const Index vertices = checked_index(num_vertices_, name, "vertices");
     indices_.check(scanner_, vertices);
     mesh_.positions = Eigen::Map<const Points>(coordinates_.data(), vertices, 3);
@@ -200,10 +219,11 @@ class ObjReader {
                                "vertices without colour, which others have; colours are dropped");
       return;
     }
+    const ValueType type = type_of_decimals(colours_.values);
     for (std::size_t i = 0; i < (colours_.alpha ? 4u : 3u); ++i) {
       Mesh::Values& channel = mesh_.vertex_values.emplace_back();
       channel.name = colour_names[i];
-      channel.type = ValueType::float32;
+      channel.type = type;
       for (std::size_t k = i; k < colours_.values.size(); k += 4) channel.values.push_back(colours_.values[k]);
     }
   }
@@ -262,7 +282,8 @@ class ObjReader {
   Texture texture_;
   Colours colours_;
   ObjNames groups_, objects_, materials_, smoothing_groups_;
-  bool warned_of_zero_ = false;
+  bool warned_of_zero_ = false, warned_of_weight_ = false;
+  std::string left_out_;  // why lines may be missing, for messages
   ObjElements elements_;
   UnknownKeywords unknown_;
 };
@@ -284,6 +305,7 @@ ObjCounts count_obj(std::string_view part) {
     counts.vertices += keyword == "v";
     counts.texture_coordinates += keyword == "vt";
     counts.faces += keyword == "f";
+    if (is_name_keyword(keyword)) rest_of_line(scanner);
   }
   counts.lines = scanner.line() - 1;
   return counts;

@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/io/detail/obj_names.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace sublimit {
 
 std::string rest_of_line(TextScanner& scanner) {
   std::string words;
-  for (std::string_view token; !(token = scanner.token()).empty();) {
+  for (std::string_view token; !(token = scanner.name_token()).empty();) {
     if (!words.empty()) words += ' ';
     words += token;
   }
   return words;
+}
+
+bool has_comment(std::string_view name) {
+  for (std::size_t at = 0; (at = name.find('#', at)) != std::string_view::npos; ++at)
+    if (at == 0 || std::string_view(" \t\v\f").find(name[at - 1]) != std::string_view::npos) return true;
+  return false;
+}
+
+bool is_name_keyword(std::string_view keyword) {
+  constexpr std::array<std::string_view, 6> keywords{"g", "o", "usemtl", "mtllib", "s", "call"};
+  return std::ranges::find(keywords, keyword) != keywords.end();
 }
 
 Index ObjNames::number(std::string name, std::vector<std::string>& names) {

@@ -11,8 +11,13 @@
 
 namespace sublimit {
 
-/// Returns the words that are left of a line, joined by a blank.
+/// Returns the words that are left of a line, joined by a blank. Only a `#` behind a blank begins a comment.
 std::string rest_of_line(TextScanner& scanner);
+
+/// Returns true if a part of a name would be a comment: a `#` at its beginning or behind a blank.
+bool has_comment(std::string_view name);
+/// Returns true if names stand behind a keyword: `g`, `o`, `usemtl`, `mtllib`, `s`, `call`.
+bool is_name_keyword(std::string_view keyword);
 
 /// Names of one kind. Words of a line are one name; faces after a line without a word have none.
 class ObjNames {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sublimit/io/detail/off.h"
 
+#include <array>
+#include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sublimit/base/detail/format_number.h"
@@ -13,6 +16,9 @@
 namespace sublimit {
 namespace {
 
+/// Values at vertices that are texture coordinates, as in a PLY file.
+constexpr std::array<const char*, 2> texture_names{"s", "t"};
+
 class OffReader {
  public:
   OffReader(std::string_view text, std::string_view name) : scanner_(text, name, TextScanner::Continuation::none) {}
@@ -23,12 +29,17 @@ class OffReader {
     find_layout();
     mesh_.positions.resize(num_vertices_, 3);
     for (Index v = 0; v < num_vertices_; ++v) read_vertex(v);
-    for (Index f = 0; f < num_faces_; ++f) read_face(f);
+    read_faces();
     if (scanner_.next_filled_line()) {
       mesh_.warnings.push_back(scanner_.place() + "lines behind the last face ignored");
     }
     vertex_colours_.finish(scanner_, mesh_.vertex_values, mesh_.warnings);
     face_colours_.finish(scanner_, mesh_.face_values, mesh_.warnings);
+    if (keyword_.normals)
+      mesh_.notes.push_back(scanner_.name() + ": normals of vertices left out; those of the surface are used instead");
+    if (keyword_.texture)
+      for (std::size_t i = 0; i < 2; ++i)
+        mesh_.vertex_values.push_back({texture_names[i], std::move(texture_[i]), ValueType::float64});
     return std::move(mesh_);
   }
 
@@ -122,9 +133,33 @@ class OffReader {
       if (colour_size_ == 4) words_.push_back(next_word());
       vertex_colours_.add(scanner_, words_);
     }
-    for (int i = 0; keyword_.texture && i < 2; ++i) scanner_.real(next_word(), "texture coordinate");
+    for (std::size_t i = 0; keyword_.texture && i < 2; ++i)
+      texture_[i].push_back(scanner_.finite(next_word(), "texture coordinate"));
     if (by_line_)
       for (std::string_view token; !(token = scanner_.token()).empty();) scanner_.real(token, "number at the end");
+  }
+
+  /// Reads faces by lines, with the numbers at their ends as colours; if the file then ends too early, free of line
+  /// ends and without colours.
+  void read_faces() {
+    const TextScanner first = scanner_;
+    try {
+      for (Index f = 0; f < num_faces_; ++f) read_face(f);
+    } catch (const Error&) {
+      if (!has_words_) throw;
+      const std::exception_ptr reason = std::current_exception();
+      scanner_ = first;
+      mesh_.face_sizes.clear();
+      mesh_.face_vertices.clear();
+      face_colours_ = OffColours("faces");
+      faces_by_line_ = false;
+      try {
+        for (Index f = 0; f < num_faces_; ++f) read_face(f);
+      } catch (const Error&) {
+        std::rethrow_exception(reason);
+      }
+      if (!scanner_.token_of_any_line().empty()) std::rethrow_exception(reason);
+    }
   }
 
   void read_face(Index f) {
@@ -144,8 +179,10 @@ class OffReader {
     }
     checked_index(std::int64_t(mesh_.face_vertices.size()), scanner_.name(), "corners of faces");
     mesh_.face_sizes.push_back(static_cast<Index>(size));
+    if (!faces_by_line_) return;
     words_.clear();
     for (std::string_view token; !(token = scanner_.token()).empty();) words_.push_back(token);
+    has_words_ = has_words_ || !words_.empty();
     face_colours_.add(scanner_, words_);
   }
 
@@ -153,9 +190,10 @@ class OffReader {
   Mesh mesh_;
   OffKeyword keyword_;
   Index num_vertices_ = 0, num_faces_ = 0;
-  bool by_line_ = false;
-  std::size_t colour_size_ = 0;  // of vertices, 0: not known yet
+  bool by_line_ = false, faces_by_line_ = true, has_words_ = false;  // words behind faces
+  std::size_t colour_size_ = 0;                                      // of vertices, 0: not known yet
   OffColours vertex_colours_{"vertices"}, face_colours_{"faces"};
+  std::array<std::vector<double>, 2> texture_;
   std::vector<std::string_view> words_;
 };
 

@@ -3,16 +3,18 @@
 // Object File Format (Geomview): text, `OFF`, its counts, then vertices and faces, free of line ends. The variants
 // COFF, NOFF, STOFF and their mixtures have colours, normals and texture coordinates behind the coordinates of
 // vertices, in the order normals, colours, texture coordinates. Numbers on the line of a face's last corner are its
-// colour.
+// colour; where the file has too few numbers for that, they are further faces.
 //
 // Colours are kept, as `vertex_values` and `face_values` of the names red, green, blue and alpha: 0 to 255 if a number
-// above 1 is among them, otherwise 0 to 1. Normals and texture coordinates are dropped.
+// above 1 is among them, otherwise 0 to 1. Texture coordinates are `vertex_values` s and t,
+// as those of a PLY file are. Normals are dropped, with a note.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sublimit/mesh/mesh.h"
 
@@ -35,6 +37,9 @@ std::string format_off(const Mesh& mesh);
 /// Writes a mesh to a file, which appears whole or not at all.
 void write_off(const std::filesystem::path& path, const Mesh& mesh,
                const std::function<void(std::int64_t)>& progress = {});
+
+/// Returns what a file changes of a mesh: colours beyond 0 to 1 are cut off. A sentence each; empty if nothing.
+std::vector<std::string> changes_in_off(const Mesh& mesh);
 
 /// The first word of a file, such as `STCNOFF`.
 struct OffKeyword {

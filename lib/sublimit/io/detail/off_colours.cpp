@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "sublimit/io/detail/decimals.h"
 #include "sublimit/mesh/detail/attributes.h"
 
 namespace sublimit {
@@ -53,8 +54,9 @@ void OffColours::finish(const TextScanner& scanner, std::vector<Mesh::Values>& v
     warnings.push_back(scanner.place(*no_alpha_) + "a colour of 3 numbers where other " + of +
                        " have 4; alpha is left out, all should have it");
   const bool bytes = largest_ > 1;
+  const ValueType type = bytes ? ValueType::uint8 : type_of_decimals(numbers_);
   for (std::size_t k = 0; k < (has_alpha_ && !no_alpha_ ? 4u : 3u); ++k) {
-    Mesh::Values channel{colour_names[k], {}, bytes ? ValueType::uint8 : ValueType::float32};
+    Mesh::Values channel{colour_names[k], {}, type};
     channel.values.reserve(is_real_.size());
     for (std::size_t i = 0; i < is_real_.size(); ++i) {
       // Beside colours of 0 to 255 one with decimal points may be 0 to 1.

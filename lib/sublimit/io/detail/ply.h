@@ -43,6 +43,9 @@ Mesh parse_ply(std::string_view bytes, std::string_view name, std::span<const st
 /// @throws InvalidMesh       coordinates that are not finite, values of integer types that are no number, or texture
 ///                           coordinates beyond floats
 std::string format_ply(const Mesh& mesh);
+/// Returns what a file changes of a mesh: values whose name is taken, and those beyond their type. A sentence each;
+/// empty if nothing.
+std::vector<std::string> changes_in_ply(const Mesh& mesh);
 /// Writes a mesh to a file, which appears whole or not at all.
 void write_ply(const std::filesystem::path& path, const Mesh& mesh,
                const std::function<void(std::int64_t)>& progress = {});

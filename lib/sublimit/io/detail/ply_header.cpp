@@ -2,6 +2,7 @@
 #include "sublimit/io/detail/ply_header.h"
 
 #include <algorithm>
+#include <limits>
 #include <unordered_set>
 #include <utility>
 
@@ -141,7 +142,34 @@ class HeaderParser {
   bool has_format_ = false;
 };
 
+template <class T>
+PlyRange range_of(const char* name) {
+  return {name, double(std::numeric_limits<T>::lowest()), double(std::numeric_limits<T>::max())};
+}
+
 }  // namespace
+
+PlyRange range_of(PlyType type) {
+  switch (type) {
+    case PlyType::int8:
+      return range_of<std::int8_t>("char");
+    case PlyType::uint8:
+      return range_of<std::uint8_t>("uchar");
+    case PlyType::int16:
+      return range_of<std::int16_t>("short");
+    case PlyType::uint16:
+      return range_of<std::uint16_t>("ushort");
+    case PlyType::int32:
+      return range_of<std::int32_t>("int");
+    case PlyType::uint32:
+      return range_of<std::uint32_t>("uint");
+    case PlyType::float32:
+      return range_of<float>("float");
+    case PlyType::float64:
+      break;
+  }
+  return range_of<double>("double");
+}
 
 std::int64_t byte_size(PlyType type) {
   switch (type) {

@@ -14,6 +14,12 @@ namespace sublimit {
 using PlyType = ValueType;
 std::int64_t byte_size(PlyType type);
 bool is_integer(PlyType type);
+/// The numbers that a type holds, and its name in headers.
+struct PlyRange {
+  const char* name;
+  double least, most;
+};
+PlyRange range_of(PlyType type);
 
 struct PlyProperty {
   std::string name;

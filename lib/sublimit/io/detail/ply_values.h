@@ -32,7 +32,16 @@ class PlyTextValues {
       fail("unexpected " + in_quotes(token) + "; the header says that the line ends before it");
     }
   }
-  double real(PlyType) { return number<double>(); }
+  /// Reads a number, which its type should hold: in other programs it would be another one.
+  double real(PlyType type) {
+    const double value = number<double>();
+    const PlyRange range = range_of(type);
+    if (std::isfinite(value) ? value < range.least || value > range.most : is_integer(type))
+      fail("number " + format_number(value) + " is beyond the type " + range.name + " of the header; " +
+           format_number(range.least) + " to " + format_number(range.most) + " are in it");
+    return value;
+  }
+  /// Reads an index or the length of a list, which text has room for whatever the type.
   std::int64_t integer(PlyType) { return number<std::int64_t>(); }
   void skip(PlyType, std::int64_t count) {
     for (; count > 0; --count) {

@@ -5,12 +5,13 @@
 // Read: corners of equal coordinates are one vertex; triangles with two equal corners are left out, with a warning;
 // names of solids in text are names of objects. Normals are skipped, and so are the two bytes of a binary triangle in
 // which some programs keep a colour. A file of 84 + 50 n bytes for its n triangles is binary, whatever it begins with.
-// Written: binary, polygons as fans around their first corner.
+// Written: binary, polygons cut into triangles that do not leave them (face_triangles.h).
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sublimit/mesh/mesh.h"
 
@@ -33,6 +34,8 @@ bool is_binary_stl(std::string_view bytes);
 /// @throws InvalidMesh       coordinates that are not finite, or beyond floats
 /// @throws ResourceError     more triangles than the file can count
 std::string format_stl(const Mesh& mesh);
+/// Returns what a file changes of a mesh: different points that are one in 32 bits. A sentence each; empty if nothing.
+std::vector<std::string> changes_in_stl(const Mesh& mesh);
 /// Writes the triangles of a mesh to a binary file, which appears whole or not at all.
 void write_stl(const std::filesystem::path& path, const Mesh& mesh,
                const std::function<void(std::int64_t)>& progress = {});

@@ -53,7 +53,7 @@ bool TextScanner::at_continuation() const {
 
 void TextScanner::skip_line_end() { here_ += *here_ == '\r' && here_ + 1 != end_ && here_[1] == '\n' ? 2 : 1; }
 
-std::string_view TextScanner::token() {
+void TextScanner::skip_blanks() {
   while (here_ != end_) {
     if (kind(*here_) == blank) {
       ++here_;
@@ -66,8 +66,22 @@ std::string_view TextScanner::token() {
       break;
     }
   }
+}
+
+std::string_view TextScanner::token() {
+  skip_blanks();
   const char* const first = here_;
   while (here_ != end_ && (kind(*here_) == letter || (kind(*here_) == backslash && !at_continuation()))) ++here_;
+  return {first, static_cast<std::size_t>(here_ - first)};
+}
+
+std::string_view TextScanner::name_token() {
+  skip_blanks();
+  const char* const first = here_;
+  if (here_ != end_ && kind(*here_) == comment) return {};
+  while (here_ != end_ &&
+         (kind(*here_) == letter || kind(*here_) == comment || (kind(*here_) == backslash && !at_continuation())))
+    ++here_;
   return {first, static_cast<std::size_t>(here_ - first)};
 }
 

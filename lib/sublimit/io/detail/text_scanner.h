@@ -45,6 +45,8 @@ class TextScanner {
   bool next_filled_line();
   /// Returns the next token of this line; empty at its end.
   std::string_view token();
+  /// Returns the same of a name: a '#' inside of it belongs to it.
+  std::string_view name_token();
   /// Returns the next token of this line or of those after it; empty at the end of the text.
   std::string_view token_of_any_line();
 
@@ -72,6 +74,7 @@ class TextScanner {
  private:
   template <class T>
   T number(std::string_view token, std::string_view what) const;
+  void skip_blanks();
   const char* behind_blanks(const char* at) const;
   bool at_continuation() const;
   void skip_line_end();
