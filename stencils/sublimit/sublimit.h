@@ -58,6 +58,11 @@
 //   const Tessellation flat = surface.tessellate({.chord = 1e-3});
 //   flat.points.row(flat.triangles[t].vertices[0]), flat.places;
 //
+// Scenes of USD: each subdivision mesh becomes triangles with exact normals, all else stays as it is:
+//
+//   const FlattenedScene flat_scene = flatten("scene.usda", "flat.usda", {.relative_chord = 1e-3});
+//   flat_scene.meshes[0].triangles, flat_scene.meshes[0].bound, flat_scene.warnings;
+//
 // Tables: baked once for a connectivity, applied every frame. eval/table.h needs the component eval alone:
 //
 //   bake(mesh, "catmull-clark", {.levels = 3}).save("cube.safetensors");
@@ -112,6 +117,8 @@
 // Functions throw `Error`s (base/error.h): each has a code, and a message that says what is wrong, where, and what
 // would be right. Functions use all threads of oneTBB. Surfaces, tables, schemes and constructions never change: copies
 // are cheap, and any number of threads may share one. Meshes and results are plain data.
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -215,6 +222,40 @@ struct BakeOptions {
 /// why texture coordinates that the scheme cannot refine are left out.
 /// @throws as `LimitSurface` and `tessellate` of a surface
 [[nodiscard]] Mesh tessellate(const Mesh& mesh, const AnyScheme& scheme, const TessellationOptions& options);
+
+/// Options of `flatten`.
+struct FlattenOptions {
+  /// Largest distance of triangles from the limit, in the unit of the scene; 0: the part of a mesh's diagonal below.
+  double chord = 0;
+  double relative_chord = 1e-3;                        ///< a part of the diagonal of each mesh's box
+  double angle = 0;                                    ///< as in `TessellationOptions`
+  std::int64_t max_triangles = std::int64_t{1} << 24;  ///< of each mesh
+};
+
+/// What `flatten` made of a scene.
+struct [[nodiscard]] FlattenedScene {
+  struct FlatMesh {
+    std::string path;            ///< of the prim
+    std::int64_t triangles = 0;  ///< 0 if it is left as it is
+    double bound = 0;            ///< proved bound of the distance from the limit, in the space of the prim
+    std::string why_not;         ///< why it is left as it is; empty if it is flattened
+  };
+  std::vector<FlatMesh> meshes;       ///< the meshes of the scene with a scheme, in its order
+  std::vector<std::string> warnings;  ///< what is missing or left out, each with its place
+};
+
+/// Makes triangles near the limit of each subdivision mesh of a USD scene, with exact normals, and writes the scene
+/// with them: as USD all else stays byte for byte, and points that move in time move on; as glTF or another format of
+/// meshes all meshes of the scene, at the first time, in the space of the world.
+/// @param scene  `.usda` or `.usdz`
+/// @param path   `.usda`, `.usdz`, `.glb` or another format of meshes
+/// @throws InvalidParameter           a negative chord or angle
+/// @throws InvalidMesh, FormatError   a mesh or layer that cannot be read
+/// @throws ResourceError              more triangles than allowed; IoError  unreadable, unwritable
+/// @note  The bound holds for the first time: the same places of the limit are taken at all others.
+FlattenedScene flatten(const std::filesystem::path& scene, const std::filesystem::path& path,
+                       const FlattenOptions& options = {},
+                       const std::function<void(const std::string&)>& progress = {});
 
 /// Options of `fit`.
 struct FitOptions {

@@ -21,7 +21,7 @@ if(NOT TARGET)
       -DSUBLIMIT_BUILD_IMPLICIT_MESH=OFF -DSUBLIMIT_BUILD_CAD=OFF -DSUBLIMIT_BUILD_GPU=OFF -DSUBLIMIT_BUILD_FUZZERS=ON
       -DSUBLIMIT_WARNINGS_AS_ERRORS=OFF
       -DSUBLIMIT_SHARED_MESHES=${MESHES} ${part})
-  run(${CMAKE_COMMAND} --build ${binary} --target fuzz_obj fuzz_mesh fuzz_table fuzz_recipe sweep_tests)
+  run(${CMAKE_COMMAND} --build ${binary} --target fuzz_obj fuzz_mesh fuzz_usd fuzz_table fuzz_recipe sweep_tests)
   return()
 endif()
 if("${TARGET}" STREQUAL sweep_tests)

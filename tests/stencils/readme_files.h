@@ -12,6 +12,7 @@
 #include "stencils/readme_commands.h"
 #include "sublimit/io/detail/obj.h"
 #include "sublimit/io/read_mesh.h"
+#include "sublimit/io/write_mesh.h"
 #include "sublimit/scheme/detail/prepare.h"
 #include "sublimit/stencils/formats/npy.h"
 #include "sublimit/stencils/patterns/demo_mesh.h"
@@ -46,6 +47,9 @@ inline std::vector<nlohmann::ordered_json> shown_jobs() {
 inline void write_cages(const std::filesystem::path& folder) {
   const Mesh cage = with_channel(triangulated(demo_mesh()), {});
   write_obj(folder / "cage.obj", cage);
+  Mesh prim = demo_mesh();
+  prim.scheme = "catmull-clark";
+  for (const char* const scene : {"scene.usda", "asset.usdz"}) write_mesh(folder / scene, prim);
   const std::int64_t frames = 3;
   NpyWriter animation(folder / "animation.npy", DType::F32, {frames, cage.num_vertices(), 3});
   for (std::int64_t frame = 0; frame < frames; ++frame) {

@@ -23,4 +23,5 @@ PYBIND11_MODULE(_sublimit, m) {
   add_reports(m);
   add_fits(m);
   add_parts(m);
+  add_scenes(m);
 }

@@ -20,5 +20,6 @@ void add_curves(pybind11::module_& m);
 void add_reports(pybind11::module_& m);
 void add_fits(pybind11::module_& m);
 void add_parts(pybind11::module_& m);
+void add_scenes(pybind11::module_& m);
 
 }  // namespace sublimit::python

@@ -68,6 +68,9 @@ if TYPE_CHECKING:
     from ._reports import Report as Report
     from ._reports import analyze as analyze
     from ._reports import analyze_mesh as analyze_mesh
+    from ._scenes import FlatMesh as FlatMesh
+    from ._scenes import FlattenedScene as FlattenedScene
+    from ._scenes import flatten as flatten
     from ._schemes import OptionInfo as OptionInfo
     from ._schemes import Scheme as Scheme
     from ._schemes import SchemeInfo as SchemeInfo
@@ -103,6 +106,7 @@ _PARTS = {
     "_parts": ("ImplicitMesh", "StepFile", "implicit", "step"),
     "_patches": ("Patches",),
     "_reports": ("Report", "analyze", "analyze_mesh"),
+    "_scenes": ("FlatMesh", "FlattenedScene", "flatten"),
     "_schemes": ("OptionInfo", "Scheme", "SchemeInfo", "scheme", "schemes"),
     "_surfaces": ("ClosestPoints", "Curvature", "LimitSurface", "RayHits", "Samples", "Source", "Tessellation", "closest",
                   "intersect", "tessellate"),

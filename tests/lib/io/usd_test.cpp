@@ -64,8 +64,9 @@ TEST(Usd, TextIsReadWhateverItsShape) {
   EXPECT_EQ(a.property("c", "connect")->value, "</A.b>");
   EXPECT_EQ(a.property("n")->edit, "delete");
   EXPECT_EQ(a.property("f")->value, "@@@a@b.png@@@");
-  ASSERT_EQ(a.variant_sets.size(), 1u);
-  EXPECT_EQ(a.variant_sets[0].variants[0].children[0].property("i")->value, "3");
+  ASSERT_EQ(a.variants.size(), 2u);
+  EXPECT_EQ(a.variants[1].set, "v");
+  EXPECT_EQ(a.variants[0].children[0].property("i")->value, "3");
   EXPECT_EQ(a.children[0].children[0].name, "D");
   EXPECT_EQ(find_usd_spec(root, "/A/C/D"), &a.children[0].children[0]);
   EXPECT_EQ(find_usd_spec(root, "/A/D"), nullptr);
@@ -504,6 +505,21 @@ TEST(Usd, SamplesInTimeAreFrames) {
   EXPECT_EQ(meshes[0].times, (std::vector<double>{-1, 2}));
   EXPECT_EQ(meshes[0].mesh.positions(0, 2), -1);
   EXPECT_EQ(usd_points(meshes[0], 1)(0, 2), 2);
+  const TemporaryDirectory directory;
+  const MeshFrames frames = read_usd_frames(directory.write(
+      "a.usda", layer("def Xform \"w\" { double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 4: (8, 0, 0) }\n"
+                      "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n" +
+                      text.substr(text.find('\n')) + "}\n" + square("still"))));
+  ASSERT_EQ(frames.count, 4);  // -1, 0, 2, 4
+  for (std::int64_t k = 0; k < 4; ++k) {
+    const Points points = frames.positions(k);
+    ASSERT_EQ(points.rows(), 7);
+    // Between samples all is linear, before and behind them it stands still.
+    EXPECT_EQ(Eigen::RowVector3d(points.row(1)), Eigen::RowVector3d(std::vector<double>{1, 1, 5, 9}[std::size_t(k)], 0,
+                                                                    std::vector<double>{-1, 0, 2, 2}[std::size_t(k)]));
+    EXPECT_EQ(Eigen::RowVector3d(points.row(5)), Eigen::RowVector3d(1, 1, 0));
+  }
+  EXPECT_EQ(frames.positions(0), read_mesh(directory / "a.usda").positions);
   const std::string other = layer(
       "def Mesh \"a\" {\n point3f[] points.timeSamples = { 0: [(0, 0, 2), (1, 0, 2), (0, 1, 2)],\n"
       " 1: [(0, 0, -1)] }\n int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2] }");

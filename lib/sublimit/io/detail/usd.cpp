@@ -3,6 +3,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -73,13 +75,19 @@ void add_primvars(const UsdMesh& one, Mesh& mesh) {
       add_values(primvar, mesh.num_faces(), mesh.face_values);
   }
   // Programs take the first channel for texture coordinates.
-  std::ranges::stable_partition(mesh.face_varying,
-                                [](const Mesh::FaceVarying& channel) { return channel.values.cols() == 2; });
+  std::stable_partition(mesh.face_varying.begin(), mesh.face_varying.end(),
+                        [](const Mesh::FaceVarying& channel) { return channel.values.cols() == 2; });
   const auto smooth = std::ranges::count(one.primvars, Interpolation::vertex, &UsdPrimvar::interpolation);
   const auto linear = std::ranges::count(one.primvars, Interpolation::varying, &UsdPrimvar::interpolation);
   if (linear > 0 && smooth == 0) mesh.attributes = Attributes::linear;
   if (linear > 0 && smooth > 0)
     mesh.notes.push_back(one.place + "values of vertices are vertex and varying ones; all are refined by one rule");
+}
+
+Points in_world(const UsdMesh& one, const Points& points) {
+  if (one.to_world == Eigen::Matrix4d::Identity()) return points;
+  return (points * one.to_world.topLeftCorner<3, 3>().transpose()).rowwise() +
+         one.to_world.topRightCorner<3, 1>().transpose();
 }
 
 /// Adds meshes one behind the other.
@@ -89,9 +97,7 @@ class Merger {
     check_rules(one, mesh);
     const Index vertices = num_vertices(), faces = all.num_faces();
     if (one.to_world != Eigen::Matrix4d::Identity()) {
-      const Points points = mesh.positions;
-      mesh.positions = (points * one.to_world.topLeftCorner<3, 3>().transpose()).rowwise() +
-                       one.to_world.topRightCorner<3, 1>().transpose();
+      mesh.positions = in_world(one, mesh.positions);
       // Normals are those of the surface outside of a mirror, too.
       const Eigen::Matrix3d linear = one.to_world.topLeftCorner<3, 3>();
       if (mesh.normals.rows() > 0 && linear.determinant() != 0)
@@ -380,6 +386,30 @@ Mesh merged(const std::vector<UsdMesh>& meshes, UsdStage& stage, std::vector<std
 }
 
 Mesh read_usd(const std::filesystem::path& path) { return read_stage(UsdStage(path), path.string()); }
+
+MeshFrames read_usd_frames(const std::filesystem::path& path) {
+  const auto stage = std::make_shared<UsdStage>(path);
+  std::vector<std::string> none;
+  std::vector<double> times;
+  for (const UsdMesh& mesh : usd_meshes(*stage, none)) {
+    times.insert(times.end(), mesh.times.begin(), mesh.times.end());
+    times.insert(times.end(), mesh.transform_times.begin(), mesh.transform_times.end());
+  }
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return {std::max<std::int64_t>(std::ssize(times), 1), [stage, times](std::int64_t frame) {
+            std::vector<std::string> told;
+            const auto time = times.empty() ? std::nullopt : std::optional(times[std::size_t(frame)]);
+            std::vector<double> numbers;
+            for (const UsdMesh& mesh : usd_meshes(*stage, told, time)) {
+              const Points points = in_world(mesh, mesh.mesh.positions);
+              numbers.insert(numbers.end(), points.data(), points.data() + points.size());
+            }
+            Points all(std::ssize(numbers) / 3, 3);
+            std::ranges::copy(numbers, all.data());
+            return all;
+          }};
+}
 
 Mesh parse_usd(std::string_view bytes, std::string_view name) {
   return read_stage(UsdStage(std::string(bytes), std::string(name)), std::string(name));

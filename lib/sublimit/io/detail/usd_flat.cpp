@@ -237,7 +237,8 @@ class LayerEditor {
     std::string more;  // statements that are new
     const std::string indent = spec ? indent_of(spec->text) + "    " : "    ";
     std::vector<const UsdProperty*> replaced;
-    for (const NewProperty& one : edit.properties) {
+    for (NewProperty one : edit.properties) {
+      one.value = indented(std::move(one.value), indent);
       const UsdProperty* const there = spec ? spec->property(one.name, one.part) : nullptr;
       const bool has_value = there && !there->value.empty();
       if (has_value && !one.replaces_metadata) {
@@ -283,7 +284,9 @@ class LayerEditor {
       write(node, indent_of(spec->text) + (spec == &layer_.root ? "" : "    "), text);
       insert_last(*spec, text);
     }
-    std::ranges::stable_sort(edits_, {}, &Edit::begin);
+    // What is put in comes before what is taken out at the same place.
+    std::ranges::stable_sort(
+        edits_, [](const Edit& a, const Edit& b) { return a.begin != b.begin ? a.begin < b.begin : a.end < b.end; });
     std::string out;
     std::size_t at = 0;
     for (const Edit& edit : edits_) {
@@ -299,6 +302,14 @@ class LayerEditor {
     std::size_t begin, end;
     std::string text;
   };
+  /// Lines behind the first one, which are made for an indent of four, with that of a statement.
+  static std::string indented(std::string lines, const std::string& indent) {
+    const std::string more = indent.size() > 4 ? indent.substr(4) : "";
+    for (std::size_t at = 0; !more.empty() && (at = lines.find('\n', at)) != std::string::npos;)
+      lines.insert(at += 1, more);
+    return lines;
+  }
+
   struct Override {
     std::string statements = {};
     std::map<std::string, Override> children = {};

@@ -39,6 +39,43 @@ std::vector<double> numbers_of(const UsdPrim& prim, std::string_view name, int w
   return value.empty() ? std::vector<double>() : usd_numbers(*found.layer, value, name, width);
 }
 
+/// Two samples and how far a time is from the first one to the second one, 0 to 1.
+struct Between {
+  std::size_t first, second;
+  double part;
+};
+Between samples_around(const std::vector<double>& times, double time) {
+  const auto next = static_cast<std::size_t>(std::ranges::lower_bound(times, time) - times.begin());
+  if (next == times.size()) return {next - 1, next - 1, 0};
+  if (next == 0 || times[next] == time) return {next, next, 0};
+  return {next - 1, next, (time - times[next - 1]) / (times[next] - times[next - 1])};
+}
+
+/// Numbers between those of two samples; those of the first one if they are not as many.
+std::vector<double> blended(std::vector<double> first, const std::vector<double>& second, double part) {
+  if (first.size() == second.size())
+    for (std::size_t i = 0; i < first.size(); ++i) first[i] = std::lerp(first[i], second[i], part);
+  return first;
+}
+
+/// The numbers of an attribute at a time; if none is given, at the first one.
+/// @param times  gets the times of its samples
+std::vector<double> numbers_at(const UsdPrim& prim, std::string_view name, int width, std::optional<double> time,
+                               std::vector<double>& times) {
+  const Found found = prim.find(name);
+  if (!found || found.property->part.empty()) return numbers_of(prim, name, width);
+  const auto samples = usd_samples(*found.layer, found.property->value, name);
+  if (samples.empty()) return {};
+  std::vector<double> own;
+  for (const auto& [at, value] : samples) own.push_back(at);
+  times.insert(times.end(), own.begin(), own.end());
+  const auto numbers = [&](std::size_t i) { return usd_numbers(*found.layer, samples[i].second, name, width); };
+  if (!time) return numbers(0);
+  const Between between = samples_around(own, *time);
+  if (between.part == 0) return numbers(between.first);
+  return blended(numbers(between.first), numbers(between.second), between.part);
+}
+
 std::vector<Index> indices_of(const UsdPrim& prim, std::string_view name, Index least, Index most) {
   const Found found = prim.find(name);
   const std::string_view value = first_value(found, name);
@@ -52,11 +89,12 @@ std::vector<Index> indices_of(const UsdPrim& prim, std::string_view name, Index 
 }
 
 /// The last `xformOp` of a transform, after others have been taken off its suffix.
-Matrix transform_of(const UsdPrim& prim, const std::string& op) {
+Matrix transform_of(const UsdPrim& prim, const std::string& op, std::optional<double> time,
+                    std::vector<double>& times) {
   const std::string kind = op.substr(8, op.find(':', 8) - 8);  // behind "xformOp:"
   Matrix m = Matrix::Identity();
   const auto take = [&](int width) {
-    std::vector<double> numbers = numbers_of(prim, op, width);
+    std::vector<double> numbers = numbers_at(prim, op, width, time, times);
     if (numbers.size() != std::size_t(width))
       refuse(prim, op, "should have " + format_number(width) + " numbers; it has " + format_number(numbers.size()));
     return numbers;
@@ -113,8 +151,9 @@ Matrix transform_of(const UsdPrim& prim, const std::string& op) {
 }
 
 /// The transform of a prim in the space of its parent.
+/// @param times   gets the times of its samples
 /// @param resets  set if the parent's transforms do not hold for it
-Matrix local_transform(const UsdPrim& prim, bool& resets) {
+Matrix local_transform(const UsdPrim& prim, std::optional<double> time, std::vector<double>& times, bool& resets) {
   Matrix m = Matrix::Identity();
   const Found order = prim.find("xformOpOrder");
   if (!order) return m;
@@ -127,7 +166,7 @@ Matrix local_transform(const UsdPrim& prim, bool& resets) {
     const bool inverse = op.starts_with("!invert!");
     if (inverse) op.erase(0, 8);
     if (!op.starts_with("xformOp:")) refuse(prim, "xformOpOrder", "names " + in_quotes(op) + ", which is no transform");
-    Matrix next = transform_of(prim, op);
+    Matrix next = transform_of(prim, op, time, times);
     if (inverse) next = next.inverse().eval();
     m = m * next;
   }
@@ -377,7 +416,8 @@ void read_primvars(const UsdPrim& prim, UsdMesh& out) {
 
 class MeshFinder {
  public:
-  MeshFinder(UsdStage& stage, std::vector<std::string>& warnings) : stage_(stage), warnings_(warnings) {}
+  MeshFinder(UsdStage& stage, std::vector<std::string>& warnings, std::optional<double> time)
+      : stage_(stage), warnings_(warnings), time_(time) {}
 
   std::vector<UsdMesh> find() {
     stage_.visit([&](const UsdPrim& prim) { return enter(prim); });
@@ -390,12 +430,13 @@ class MeshFinder {
   struct State {
     Matrix to_world = Matrix::Identity();
     std::string shown, material;
-    int mesh = -1;  // the number of the mesh that it is
+    std::vector<double> times = {};  // of samples of transforms
+    int mesh = -1;                   // the number of the mesh that it is
   };
 
   bool enter(const UsdPrim& prim) {
     const State* const above = prim.parent && !prim.parent->path.empty() ? &states_.at(prim.parent->path) : nullptr;
-    State state = above ? State{above->to_world, above->shown, above->material, -1} : State();
+    State state = above ? State{above->to_world, above->shown, above->material, above->times, -1} : State();
     state.shown += (state.shown.empty() ? "" : "/") + prim.shown_name();
     const std::string_view type = prim.type();
     if (const std::string visibility = prim.text("visibility"); visibility == "invisible")
@@ -403,7 +444,7 @@ class MeshFinder {
     if (const std::string purpose = prim.text("purpose"); purpose == "guide" || purpose == "proxy")
       return hide(prim, "a " + purpose);
     bool resets = false;
-    const Matrix local = local_transform(prim, resets);
+    const Matrix local = local_transform(prim, time_, state.times, resets);
     state.to_world = resets ? local : (state.to_world * local).eval();
     if (const auto materials = prim.targets("material:binding"); !materials.empty()) state.material = materials.front();
     if (type == "Mesh")
@@ -437,6 +478,7 @@ class MeshFinder {
     out.opinions = prim.opinions;
     out.to_world = state.to_world;
     out.material = state.material;
+    out.transform_times = state.times;
     const Found points = prim.find("points");
     if (!points) {
       tell(prim, "a mesh without points");
@@ -453,6 +495,11 @@ class MeshFinder {
       if (out.samples.empty()) refuse(prim, "points", "has no sample");
     }
     out.mesh.positions = usd_points(out, 0);
+    if (time_ && !out.times.empty()) {
+      const Between between = samples_around(out.times, *time_);
+      out.mesh.positions = usd_points(out, between.first);
+      if (between.part > 0) out.mesh.positions += between.part * (usd_points(out, between.second) - out.mesh.positions);
+    }
     read_faces(prim, out);
     read_rules(prim, out.mesh);
     read_tags(prim, out.mesh);
@@ -481,6 +528,7 @@ class MeshFinder {
 
   UsdStage& stage_;
   std::vector<std::string>& warnings_;
+  std::optional<double> time_;
   std::vector<UsdMesh> meshes_;
   std::unordered_map<std::string, State> states_;
 };
@@ -493,8 +541,8 @@ Points UsdPrimvar::expanded() const {
   return rows;
 }
 
-std::vector<UsdMesh> usd_meshes(UsdStage& stage, std::vector<std::string>& warnings) {
-  return MeshFinder(stage, warnings).find();
+std::vector<UsdMesh> usd_meshes(UsdStage& stage, std::vector<std::string>& warnings, std::optional<double> time) {
+  return MeshFinder(stage, warnings, time).find();
 }
 
 Points usd_points(const UsdMesh& mesh, std::size_t sample) {

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,12 +58,14 @@ struct UsdMesh {
   std::vector<double> times;              ///< of samples of the points, of one at least if points move; else none
   const UsdLayer* layer = nullptr;        ///< that the points are of
   std::vector<std::string_view> samples;  ///< the points at these times, as text
+  std::vector<double> transform_times;    ///< of samples of transforms, its own and those above it
 };
 
 /// Returns the meshes of a scene, in its order. Prims that are not seen (invisible, guides, proxies) are left out.
 /// @param warnings  gets what is left out, with its place
+/// @param time      of positions and transforms, interpolated between samples; absent: the first one of each
 /// @throws FormatError, InvalidMesh  values that cannot be read, faces and tags that do not fit; with their place
-std::vector<UsdMesh> usd_meshes(UsdStage& stage, std::vector<std::string>& warnings);
+std::vector<UsdMesh> usd_meshes(UsdStage& stage, std::vector<std::string>& warnings, std::optional<double> time = {});
 
 /// Returns the points of a sample in time.
 /// @throws InvalidMesh  another number of points

@@ -18,6 +18,18 @@ constexpr int deepest_prim = 500;
 constexpr std::int64_t most_opinions = 2'000'000;  // references that bring references may grow without end
 constexpr std::size_t most_unread = 100;
 
+/// The variant of a set that the strongest opinion selects; empty if none does.
+std::string selected_variant(std::string_view set, const std::vector<UsdPrim::Opinion>& opinions) {
+  for (const UsdPrim::Opinion& opinion : opinions) {
+    const UsdField* const variants = opinion.spec->field("variants");
+    if (!variants) continue;
+    for (const auto& [name, value] : usd_dictionary(variants->value))
+      if (name == set)
+        if (const auto texts = usd_texts(*opinion.layer, value, "variants"); !texts.empty()) return texts.front();
+  }
+  return {};
+}
+
 int depth_of(const std::string& path) { return static_cast<int>(std::ranges::count(path, '/')); }
 
 /// A path of a layer in the scene: relative ones are from the prim that has them.
@@ -249,20 +261,10 @@ void UsdStage::expand(const std::string& prim, Opinions site, std::vector<Site>&
   };
   follow_all("inherits", '1');
   for (const UsdPrim::Opinion& opinion : site)
-    for (const UsdSpec::VariantSet& set : opinion.spec->variant_sets) {
-      std::string selected;
-      for (const UsdPrim::Opinion& stronger : out) {
-        const UsdField* const variants = stronger.spec->field("variants");
-        if (!variants || !selected.empty()) continue;
-        for (const auto& [name, value] : usd_dictionary(variants->value))
-          if (name == set.name)
-            if (const auto texts = usd_texts(*stronger.layer, value, "variants"); !texts.empty())
-              selected = texts.front();
-      }
-      const auto variant = std::ranges::find(set.variants, selected, &UsdSpec::name);
-      if (variant == set.variants.end()) continue;
+    for (const UsdSpec& variant : opinion.spec->variants) {
+      if (variant.name != selected_variant(variant.set, out)) continue;
       UsdPrim::Opinion chosen = opinion;
-      chosen.spec = &*variant;
+      chosen.spec = &variant;
       chosen.arcs += '2';
       chosen.depth = depth_of(prim);
       expand(prim, {chosen}, active, out);

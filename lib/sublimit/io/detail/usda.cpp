@@ -221,7 +221,7 @@ class UsdaReader {
       if (first == "def" || first == "over" || first == "class") {
         read_prim(spec.children.emplace_back(UsdSpec{.specifier = first}), begin, depth);
       } else if (first == "variantSet") {
-        read_variants(spec.variant_sets.emplace_back(), depth);
+        read_variants(spec, depth);
       } else if (first == "reorder" &&
                  (take_word("nameChildren") || take_word("properties") || take_word("rootPrims"))) {
         expect('=', "what is reordered");
@@ -253,13 +253,15 @@ class UsdaReader {
   }
 
   /// "name" = { "variant" { ... } ... }
-  void read_variants(UsdSpec::VariantSet& set, int depth) {
-    set.name = name_in_quotes("a set of variants");
+  void read_variants(UsdSpec& spec, int depth) {
+    const std::string_view set = name_in_quotes("a set of variants");
     expect('=', "the name of a set of variants");
     expect('{', "'='");
     for (skip_separators(); !take('}'); skip_separators()) {
-      if (at_ >= text_.size()) fail(at_, "the variants of '" + std::string(set.name) + "' have no end");
-      UsdSpec& variant = set.variants.emplace_back(UsdSpec{.specifier = "over"});
+      if (at_ >= text_.size()) fail(at_, "the variants of '" + std::string(set) + "' have no end");
+      UsdSpec& variant = spec.variants.emplace_back();
+      variant.specifier = "over";
+      variant.set = set;
       const std::size_t begin = at_;
       variant.name = name_in_quotes("a variant");
       skip();

@@ -43,19 +43,15 @@ struct UsdSpec {
   std::vector<UsdField> metadata = {};
   std::vector<UsdProperty> properties = {};
   std::vector<UsdSpec> children = {};
-  struct VariantSet;
-  std::vector<VariantSet> variant_sets = {};
-  std::string_view text = {};  ///< from the specifier to the closing brace
-  std::string_view body = {};  ///< between its braces
+  std::vector<UsdSpec> variants = {};  ///< of all sets, each with what it brings
+  std::string_view set = {};           ///< of a variant: the name of its set
+  std::string_view text = {};          ///< from the specifier to the closing brace
+  std::string_view body = {};          ///< between its braces
 
   /// Returns an entry of metadata; null if there is none.
   const UsdField* field(std::string_view key) const;
   /// Returns a property by its name and part; null if there is none. The last one wins.
   const UsdProperty* property(std::string_view named, std::string_view part = {}) const;
-};
-struct UsdSpec::VariantSet {
-  std::string_view name = {};
-  std::vector<UsdSpec> variants = {};  ///< each with what it brings
 };
 
 /// A layer. It owns the text that all views are of.
