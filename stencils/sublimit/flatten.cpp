@@ -17,8 +17,6 @@
 namespace sublimit {
 namespace {
 
-using Interpolation = UsdPrimvar::Interpolation;
-
 /// Why a mesh cannot become triangles; empty if it can.
 std::string why_not(const UsdMesh& mesh) {
   const auto of_skeleton = [](const std::string& name) { return name.starts_with("skel:"); };
@@ -28,7 +26,7 @@ std::string why_not(const UsdMesh& mesh) {
 }
 
 /// The primvars of vertices with one interpolation.
-UsdMesh with_values(const UsdMesh& mesh, Interpolation interpolation) {
+UsdMesh with_values(const UsdMesh& mesh, UsdPrimvar::Interpolation interpolation) {
   UsdMesh some;
   some.mesh = mesh.mesh;
   for (const UsdPrimvar& primvar : mesh.primvars)
@@ -79,10 +77,11 @@ class Flattener {
   }
 
   void add_values(const LimitSurface& surface, const Tessellation& made, Mesh& flat) const {
-    for (const Interpolation interpolation : {Interpolation::vertex, Interpolation::varying}) {
+    for (const UsdPrimvar::Interpolation interpolation :
+         {UsdPrimvar::Interpolation::vertex, UsdPrimvar::Interpolation::varying}) {
       Mesh values = mesh_of(with_values(from_, interpolation), {});
       if (values.vertex_values.empty()) continue;
-      values.attributes = interpolation == Interpolation::varying ? Attributes::linear : Attributes::smooth;
+      values.attributes = interpolation == UsdPrimvar::Interpolation::varying ? Attributes::linear : Attributes::smooth;
       Mesh out;
       set_vertex_values(out, values, limit_vertex_values(*job_.scheme, values, surface.map(), made.places));
       flat.vertex_values.insert(flat.vertex_values.end(), out.vertex_values.begin(), out.vertex_values.end());

@@ -16,6 +16,7 @@
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/io/detail/usd.h"
 #include "sublimit/io/detail/usd_mesh.h"
+#include "sublimit/stencils/formats/npy.h"
 #include "sublimit/sublimit.h"
 #include "support/expect_error.h"
 #include "support/skip.h"
@@ -310,6 +311,21 @@ TEST(CliFlatten, TellsWhatItDoesAndLeavesMeshesOfSkeletons) {
   const Outcome other = sublimit({"flatten", directory.write("a.obj", "v 0 0 0\n").string(), "-o", out});
   EXPECT_EQ(other.status, 2);
   EXPECT_NE(other.err.find(".usda, .usd or .usdz"), std::string::npos) << other.err;
+}
+
+TEST(CliApply, TakesScenesThatMoveAsFrames) {
+  const TemporaryDirectory directory;
+  std::string moving = scene;
+  const std::string still = "double3 xformOp:translate = (1, 2, 3)";
+  moving.replace(moving.find(still), still.size(),
+                 "double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 10: (1, 0, 0), 20: (4, 0, 0) }");
+  const std::string cage = directory.write("scene.usda", moving).string(),
+                    table = (directory / "t.safetensors").string(), out = (directory / "out.npy").string();
+  expect_done(sublimit({"bake", cage, "-s", "catmull-clark", "-l", "1", "-o", table, "--quiet"}));
+  expect_done(sublimit({"apply", table, cage, "-o", out, "--quiet"}));
+  const NpyArray frames(out);
+  ASSERT_EQ(frames.shape().size(), 3u);
+  EXPECT_EQ(frames.shape()[0], 3);
 }
 
 /// What two other readers make of a scene (tests/npm/usd.mjs).

@@ -25,15 +25,15 @@ namespace {
 using Ids = std::vector<Index>;
 using Names = std::vector<std::string>;
 
-std::string layer(const std::string& contents) { return "#usda 1.0\n" + contents; }
+std::string usd_layer(const std::string& contents) { return "#usda 1.0\n" + contents; }
 /// A prim of two triangles, a square in the plane z = 0, with further properties and prims.
-std::string square(const std::string& name, const std::string& more = {}) {
+std::string square_prim(const std::string& name, const std::string& more = {}) {
   return "def Mesh \"" + name +
          "\"\n{\n  point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]\n"
          "  int[] faceVertexCounts = [3, 3]\n  int[] faceVertexIndices = [0, 1, 2, 0, 2, 3]\n" +
          more + "\n}\n";
 }
-Mesh read(const std::string& contents) { return parse_usd(layer(contents), "scene.usda"); }
+Mesh read(const std::string& contents) { return parse_usd(usd_layer(contents), "scene.usda"); }
 
 TEST(Usd, TextIsReadWhateverItsShape) {
   const auto read_layer = parse_usda(
@@ -84,18 +84,18 @@ TEST(Usd, WhatIsNoLayerIsToldWithItsLine) {
   };
   refused("PXR-USDC\x01\x02", {"a.usda", "binary", "usdcat"});
   refused("#sdf", {"a.usda:1: ", "#usda"});
-  refused(layer("def Mesh {\n}"), {"a.usda:2: ", "name of a prim"});
-  refused(layer("def Mesh \"a\"\n{\n  int[] x = [1, 2\n}"), {"a.usda:4: ", "no end"});
-  refused(layer("def Mesh \"a\"\n{\n  int[] = 3\n}"), {"a.usda:4: ", "name of a property"});
-  refused(layer("def Mesh \"a\"\n{\n"), {"a.usda:3: ", "not closed"});
-  refused(layer("}\n"), {"a.usda:2: ", "without"});
-  refused(layer("def Mesh \"a\" (\n  x = \n)\n{}"), {"a.usda:4: ", "value of metadata"});
+  refused(usd_layer("def Mesh {\n}"), {"a.usda:2: ", "name of a prim"});
+  refused(usd_layer("def Mesh \"a\"\n{\n  int[] x = [1, 2\n}"), {"a.usda:4: ", "no end"});
+  refused(usd_layer("def Mesh \"a\"\n{\n  int[] = 3\n}"), {"a.usda:4: ", "name of a property"});
+  refused(usd_layer("def Mesh \"a\"\n{\n"), {"a.usda:3: ", "not closed"});
+  refused(usd_layer("}\n"), {"a.usda:2: ", "without"});
+  refused(usd_layer("def Mesh \"a\" (\n  x = \n)\n{}"), {"a.usda:4: ", "value of metadata"});
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "def \"a\"{";
-  refused(layer(deep), {"a.usda:2: ", "500"});
-  refused(layer("def Mesh \"a\" { point3f[] points = [(0, 0, 0), (1, 0, zero)] }"), {"a.usda:2: ", "'zero'"});
-  refused(layer("def Mesh \"a\" { point3f[] points = [(0, 0, 0),\n (1, 0)] }"), {"a.usda:3: ", "2 numbers", "3"});
-  refused(layer("def Mesh \"a\" { point3f[] points = [0, 1, 2] }"), {"a.usda:2: ", "parentheses"});
+  refused(usd_layer(deep), {"a.usda:2: ", "500"});
+  refused(usd_layer("def Mesh \"a\" { point3f[] points = [(0, 0, 0), (1, 0, zero)] }"), {"a.usda:2: ", "'zero'"});
+  refused(usd_layer("def Mesh \"a\" { point3f[] points = [(0, 0, 0),\n (1, 0)] }"), {"a.usda:3: ", "2 numbers", "3"});
+  refused(usd_layer("def Mesh \"a\" { point3f[] points = [0, 1, 2] }"), {"a.usda:2: ", "parentheses"});
 }
 
 TEST(Usd, FacesAndTagsThatDoNotFitAreToldWithTheirPrim) {
@@ -111,16 +111,17 @@ TEST(Usd, FacesAndTagsThatDoNotFitAreToldWithTheirPrim) {
     }
   };
   refused("def Xform \"a\" { }", {"scene.usda: no Mesh prim"});
-  refused(square("a", "int[] creaseIndices = [0, 1, 9]\nint[] creaseLengths = [3]\nfloat[] creaseSharpnesses = [1]"),
-          {"scene.usda:7: ", "creaseIndices", "9"});
-  refused(square("a", "int[] creaseIndices = [0, 1]\nint[] creaseLengths = [3]\nfloat[] creaseSharpnesses = [1]"),
-          {"/a: ", "creaseLengths", "add up to 3", "2 vertices"});
   refused(
-      square("a", "int[] creaseIndices = [0, 1, 2]\nint[] creaseLengths = [3]\nfloat[] creaseSharpnesses = [1, 2, 3]"),
-      {"creaseSharpnesses", "has 3", "1, one for each chain", "2, one for each edge"});
-  refused(square("a", "int[] cornerIndices = [0]\nfloat[] cornerSharpnesses = [-1]"), {"cornerSharpnesses", "-1"});
-  refused(square("a", "int[] holeIndices = [2]"), {"holeIndices", "from 0 to 1"});
-  refused(square("a", "token interpolateBoundary = \"edges\""), {"interpolateBoundary", "'edges'", "edgeOnly"});
+      square_prim("a", "int[] creaseIndices = [0, 1, 9]\nint[] creaseLengths = [3]\nfloat[] creaseSharpnesses = [1]"),
+      {"scene.usda:7: ", "creaseIndices", "9"});
+  refused(square_prim("a", "int[] creaseIndices = [0, 1]\nint[] creaseLengths = [3]\nfloat[] creaseSharpnesses = [1]"),
+          {"/a: ", "creaseLengths", "add up to 3", "2 vertices"});
+  refused(square_prim(
+              "a", "int[] creaseIndices = [0, 1, 2]\nint[] creaseLengths = [3]\nfloat[] creaseSharpnesses = [1, 2, 3]"),
+          {"creaseSharpnesses", "has 3", "1, one for each chain", "2, one for each edge"});
+  refused(square_prim("a", "int[] cornerIndices = [0]\nfloat[] cornerSharpnesses = [-1]"), {"cornerSharpnesses", "-1"});
+  refused(square_prim("a", "int[] holeIndices = [2]"), {"holeIndices", "from 0 to 1"});
+  refused(square_prim("a", "token interpolateBoundary = \"edges\""), {"interpolateBoundary", "'edges'", "edgeOnly"});
   refused(
       "def Mesh \"a\" { point3f[] points = [(0, 0, inf)] int[] faceVertexCounts = [] int[] faceVertexIndices = [] }",
       {"point 0", "finite"});
@@ -133,13 +134,14 @@ TEST(Usd, FacesAndTagsThatDoNotFitAreToldWithTheirPrim) {
 }
 
 TEST(Usd, SubdivisionAttributesAreRead) {
-  const Mesh mesh = read(square("a",
-                                "uniform token subdivisionScheme = \"loop\"\ntoken interpolateBoundary = \"edgeOnly\"\n"
-                                "token triangleSubdivisionRule = \"smooth\"\n"
-                                "token faceVaryingLinearInterpolation = \"cornersPlus2\"\n"
-                                "int[] creaseIndices = [0, 1, 2, 0, 2]\nint[] creaseLengths = [3, 2]\n"
-                                "float[] creaseSharpnesses = [2.5, 1e39]\n"
-                                "int[] cornerIndices = [3]\nfloat[] cornerSharpnesses = [4]\nint[] holeIndices = [1]"));
+  const Mesh mesh =
+      read(square_prim("a",
+                       "uniform token subdivisionScheme = \"loop\"\ntoken interpolateBoundary = \"edgeOnly\"\n"
+                       "token triangleSubdivisionRule = \"smooth\"\n"
+                       "token faceVaryingLinearInterpolation = \"cornersPlus2\"\n"
+                       "int[] creaseIndices = [0, 1, 2, 0, 2]\nint[] creaseLengths = [3, 2]\n"
+                       "float[] creaseSharpnesses = [2.5, 1e39]\n"
+                       "int[] cornerIndices = [3]\nfloat[] cornerSharpnesses = [4]\nint[] holeIndices = [1]"));
   EXPECT_EQ(mesh.scheme, "loop");
   EXPECT_EQ(mesh.boundary, Boundary::edge_only);
   EXPECT_EQ(mesh.triangles, Triangles::smooth);
@@ -154,23 +156,23 @@ TEST(Usd, SubdivisionAttributesAreRead) {
   EXPECT_EQ(mesh.holes, Ids{1});
   EXPECT_EQ(mesh.objects.names, Names{"a"});
   // What USD takes where nothing is said.
-  const Mesh plain = read(square("a"));
+  const Mesh plain = read(square_prim("a"));
   EXPECT_EQ(plain.scheme, "catmull-clark");
   EXPECT_EQ(plain.face_varying_interpolation, FaceVaryingInterpolation::corners_plus1);
-  EXPECT_EQ(read(square("a", "uniform token subdivisionScheme = \"none\"")).scheme, "");
+  EXPECT_EQ(read(square_prim("a", "uniform token subdivisionScheme = \"none\"")).scheme, "");
 }
 
 TEST(Usd, SharpnessesOfEdgesAreInTheOrderOfTheChains) {
-  const Mesh mesh = read(square("a",
-                                "int[] creaseIndices = [0, 1, 2, 2, 3]\nint[] creaseLengths = [3, 2]\n"
-                                "float[] creaseSharpnesses = [1, 2, 3]"));
+  const Mesh mesh = read(square_prim("a",
+                                     "int[] creaseIndices = [0, 1, 2, 2, 3]\nint[] creaseLengths = [3, 2]\n"
+                                     "float[] creaseSharpnesses = [1, 2, 3]"));
   ASSERT_EQ(mesh.creases.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(mesh.creases[i].sharpness, float(i + 1));
 }
 
 TEST(Usd, TransformsAreThoseOfTheirMatrices) {
   const auto first_columns = [](const std::string& ops) {  // of the images of (1, 0, 0), (1, 1, 0) and (0, 0, 0)
-    return read("def Xform \"w\" {\n" + ops + "\n" + square("a") + "}").positions;
+    return read("def Xform \"w\" {\n" + ops + "\n" + square_prim("a") + "}").positions;
   };
   const Points turned = first_columns(
       "double3 xformOp:translate = (1, 2, 3)\nfloat3 xformOp:rotateXYZ = (90, 0, 90)\nfloat3 xformOp:scale = (2, 3, 4)\n"
@@ -194,9 +196,9 @@ TEST(Usd, TransformsAreThoseOfTheirMatrices) {
   const Points reset = read(
                            "def Xform \"w\" {\ndouble3 xformOp:translate = (9, 9, 9)\n"
                            "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n" +
-                           square("a", "uniform token[] xformOpOrder = [\"!resetXformStack!\"]") + "}")
+                           square_prim("a", "uniform token[] xformOpOrder = [\"!resetXformStack!\"]") + "}")
                            .positions;
-  EXPECT_EQ(reset, read(square("a")).positions);
+  EXPECT_EQ(reset, read(square_prim("a")).positions);
 }
 
 // The signed volume tells the side of faces, whatever turns them.
@@ -227,19 +229,20 @@ TEST(Usd, FacesAreCounterClockwiseSeenFromOutside) {
 
 TEST(Usd, PrimvarsAndSubsetsAreKept) {
   const Mesh mesh = read(
-      square("a",
-             "color3f[] primvars:displayColor = [(0, 0.5, 1)] ( interpolation = \"constant\" )\n"
-             "float[] primvars:weight = [1, 2] ( interpolation = \"vertex\" )\n"
-             "int[] primvars:weight:indices = [0, 1, 1, 0]\n"
-             "float3[] primvars:flow = [(1, 2, 3), (4, 5, 6), (7, 8, 9), (0, 0, 0)] ( interpolation = \"vertex\" )\n"
-             "int[] primvars:id = [7, 8] ( interpolation = \"uniform\" )\n"
-             "texCoord2f[] primvars:st = [(0, 0), (1, 1)] ( interpolation = \"faceVarying\" )\n"
-             "int[] primvars:st:indices = [0, 1, 0, 1, 0, 1]\n"
-             "float[] primvars:short = [1, 2, 3] ( interpolation = \"vertex\" )\n"
-             "string primvars:name = \"x\"\nrel material:binding = </Looks/all>\n"
-             "def GeomSubset \"s\" { uniform token elementType = \"face\" uniform token familyName = \"materialBind\" "
-             "int[] indices = [1] rel material:binding = </Looks/red> }\n"
-             "def GeomSubset \"g\" ( displayName = \"the group\" ) { int[] indices = [0] }") +
+      square_prim(
+          "a",
+          "color3f[] primvars:displayColor = [(0, 0.5, 1)] ( interpolation = \"constant\" )\n"
+          "float[] primvars:weight = [1, 2] ( interpolation = \"vertex\" )\n"
+          "int[] primvars:weight:indices = [0, 1, 1, 0]\n"
+          "float3[] primvars:flow = [(1, 2, 3), (4, 5, 6), (7, 8, 9), (0, 0, 0)] ( interpolation = \"vertex\" )\n"
+          "int[] primvars:id = [7, 8] ( interpolation = \"uniform\" )\n"
+          "texCoord2f[] primvars:st = [(0, 0), (1, 1)] ( interpolation = \"faceVarying\" )\n"
+          "int[] primvars:st:indices = [0, 1, 0, 1, 0, 1]\n"
+          "float[] primvars:short = [1, 2, 3] ( interpolation = \"vertex\" )\n"
+          "string primvars:name = \"x\"\nrel material:binding = </Looks/all>\n"
+          "def GeomSubset \"s\" { uniform token elementType = \"face\" uniform token familyName = \"materialBind\" "
+          "int[] indices = [1] rel material:binding = </Looks/red> }\n"
+          "def GeomSubset \"g\" ( displayName = \"the group\" ) { int[] indices = [0] }") +
       "def Scope \"Looks\" { def Material \"all\" { } def Material \"red\" ( displayName = \"Red paint\" ) { } }");
   ASSERT_EQ(mesh.vertex_values.size(), 4u);
   EXPECT_EQ(mesh.vertex_values[0].name, "weight");
@@ -263,28 +266,30 @@ TEST(Usd, PrimvarsAndSubsetsAreKept) {
   ASSERT_EQ(mesh.notes.size(), 1u);
   EXPECT_NE(mesh.notes[0].find("primvars:name"), std::string::npos);
   EXPECT_FALSE(mesh.attributes);
-  EXPECT_EQ(read(square("a", "float[] primvars:w = [1, 2, 3, 4] ( interpolation = \"varying\" )")).attributes,
+  EXPECT_EQ(read(square_prim("a", "float[] primvars:w = [1, 2, 3, 4] ( interpolation = \"varying\" )")).attributes,
             Attributes::linear);
 }
 
 TEST(Usd, LayersAreComposedByTheirStrength) {
   const TemporaryDirectory directory;
   std::filesystem::create_directory(directory / "parts");
-  directory.write("parts/asset.usda",
-                  layer("( defaultPrim = \"Asset\" )\ndef Xform \"Asset\" {\n" +
-                        square("body",
-                               "token interpolateBoundary = \"edgeOnly\"\nuniform token subdivisionScheme = \"loop\"\n"
-                               "rel material:binding = </Asset/Looks/paint>") +
-                        "def Scope \"Looks\" { def Material \"paint\" { } } }"));
-  directory.write("weak.usda", layer("over \"World\" { over \"car\" { over \"body\" {\n"
-                                     "uniform token subdivisionScheme = \"bilinear\"\nint[] holeIndices = [0] } } }"));
+  directory.write(
+      "parts/asset.usda",
+      usd_layer("( defaultPrim = \"Asset\" )\ndef Xform \"Asset\" {\n" +
+                square_prim("body",
+                            "token interpolateBoundary = \"edgeOnly\"\nuniform token subdivisionScheme = \"loop\"\n"
+                            "rel material:binding = </Asset/Looks/paint>") +
+                "def Scope \"Looks\" { def Material \"paint\" { } } }"));
+  directory.write("weak.usda",
+                  usd_layer("over \"World\" { over \"car\" { over \"body\" {\n"
+                            "uniform token subdivisionScheme = \"bilinear\"\nint[] holeIndices = [0] } } }"));
   directory.write(
       "scene.usda",
-      layer("( subLayers = [@./weak.usda@] )\nclass \"_shared\" { token interpolateBoundary = \"none\" }\n"
-            "def Xform \"World\" {\n  def \"car\" ( references = @parts/asset.usda@ ) {\n"
-            "    over \"body\" ( inherits = </_shared>; variants = { string holes = \"two\" } ) {\n"
-            "      variantSet \"holes\" = { \"one\" { int[] cornerIndices = [0] float[] cornerSharpnesses = [1] }\n"
-            "        \"two\" { int[] cornerIndices = [1] float[] cornerSharpnesses = [2] } }\n    }\n  }\n}\n"));
+      usd_layer("( subLayers = [@./weak.usda@] )\nclass \"_shared\" { token interpolateBoundary = \"none\" }\n"
+                "def Xform \"World\" {\n  def \"car\" ( references = @parts/asset.usda@ ) {\n"
+                "    over \"body\" ( inherits = </_shared>; variants = { string holes = \"two\" } ) {\n"
+                "      variantSet \"holes\" = { \"one\" { int[] cornerIndices = [0] float[] cornerSharpnesses = [1] }\n"
+                "        \"two\" { int[] cornerIndices = [1] float[] cornerSharpnesses = [2] } }\n    }\n  }\n}\n"));
   const Mesh mesh = read_mesh(directory / "scene.usda");
   EXPECT_EQ(mesh.objects.names, Names{"World/car/body"});
   EXPECT_EQ(mesh.scheme, "bilinear");        // the sublayer is stronger than the reference
@@ -295,7 +300,7 @@ TEST(Usd, LayersAreComposedByTheirStrength) {
   EXPECT_EQ(mesh.materials.names, Names{"paint"});  // a path of the asset is one of the scene
   EXPECT_EQ(mesh.warnings, Names{});
 
-  directory.write("missing.usda", layer(square("a") + "def \"b\" ( references = [@none.usda@, </nowhere>] ) { }"));
+  directory.write("missing.usda", layer(square_prim("a") + "def \"b\" ( references = [@none.usda@, </nowhere>] ) { }"));
   const Mesh rest = read_mesh(directory / "missing.usda");
   ASSERT_EQ(rest.warnings.size(), 2u);
   EXPECT_NE(rest.warnings[0].find("missing.usda:9: 'none.usda' is not there"), std::string::npos) << rest.warnings[0];
@@ -305,27 +310,28 @@ TEST(Usd, LayersAreComposedByTheirStrength) {
 TEST(Usd, CirclesOfReferencesEnd) {
   const TemporaryDirectory directory;
   const auto refused = [&](const std::string& text, const std::string& word) {
-    directory.write("a.usda", layer(text));
+    directory.write("a.usda", usd_layer(text));
     expect_error<FormatError>([&] { (void)read_mesh(directory / "a.usda"); }, {"a.usda", word});
   };
   refused("def \"a\" ( references = </b> ) { } def \"b\" ( references = </a> ) { }", "refers to itself");
   refused("def \"a\" ( references = @a.usda@</a> ) { }", "refers to itself");
-  refused("( subLayers = [@a.usda@] )\n" + square("a"), "sublayer of itself");
+  refused("( subLayers = [@a.usda@] )\n" + square_prim("a"), "sublayer of itself");
   refused("def \"a\" { def \"b\" ( references = </a> ) { } }", "500");
   std::string doubled;
   for (int i = 0; i < 60; ++i)
     doubled += "def \"p" + std::to_string(i) + "\" ( references = [</p" + std::to_string(i + 1) + ">, </p" +
                std::to_string(i + 1) + "x>] ) { } def \"p" + std::to_string(i) + "x\" ( references = </p" +
                std::to_string(i) + "> ) { }\n";
-  directory.write("a.usda", layer(doubled + "def \"p60\" { } def \"p60x\" { }"));
+  directory.write("a.usda", usd_layer(doubled + "def \"p60\" { } def \"p60x\" { }"));
   expect_error<ResourceError>([&] { (void)read_mesh(directory / "a.usda"); }, {"a.usda", "references"});
 }
 
 TEST(Usd, PrimsThatAreNotSeenAreLeftOutAndTold) {
-  const Mesh mesh = read(square("a") + "def Xform \"x\" { token visibility = \"invisible\"\n" + square("b") + "}\n" +
-                         "def Xform \"y\" { uniform token purpose = \"guide\"\n" + square("c") + "}\nover \"o\" {\n" +
-                         square("d") + "}\nclass \"k\" {\n" + square("e") + "}\ndef \"z\" (active = false) {\n" +
-                         square("f") + "}\ndef PointInstancer \"i\" {\n" + square("g") + "}\ndef Sphere \"s\" { }\n");
+  const Mesh mesh =
+      read(square_prim("a") + "def Xform \"x\" { token visibility = \"invisible\"\n" + square_prim("b") + "}\n" +
+           "def Xform \"y\" { uniform token purpose = \"guide\"\n" + square_prim("c") + "}\nover \"o\" {\n" +
+           square_prim("d") + "}\nclass \"k\" {\n" + square_prim("e") + "}\ndef \"z\" (active = false) {\n" +
+           square_prim("f") + "}\ndef PointInstancer \"i\" {\n" + square_prim("g") + "}\ndef Sphere \"s\" { }\n");
   EXPECT_EQ(mesh.objects.names, Names{"a"});
   ASSERT_EQ(mesh.warnings.size(), 4u);
   for (const std::size_t i : {0u, 1u, 2u, 3u})
@@ -334,13 +340,13 @@ TEST(Usd, PrimsThatAreNotSeenAreLeftOutAndTold) {
 
 TEST(Usd, MeshesOfASceneAreOneMesh) {
   const Mesh mesh =
-      read(square("a",
-                  "color3f[] primvars:displayColor = [(0, 0, 0), (0.5, 0.5, 0.5)] (interpolation = "
-                  "\"uniform\")\nint[] cornerIndices = [1]\nfloat[] cornerSharpnesses = [3]") +
-           square("b",
-                  "texCoord2f[] primvars:st = [(0, 1)] (interpolation = \"faceVarying\")\n"
-                  "int[] primvars:st:indices = [0, 0, 0, 0, 0, 0]\n"
-                  "int[] creaseIndices = [0, 1]\nint[] creaseLengths = [2]\nfloat[] creaseSharpnesses = [2]"));
+      read(square_prim("a",
+                       "color3f[] primvars:displayColor = [(0, 0, 0), (0.5, 0.5, 0.5)] (interpolation = "
+                       "\"uniform\")\nint[] cornerIndices = [1]\nfloat[] cornerSharpnesses = [3]") +
+           square_prim("b",
+                       "texCoord2f[] primvars:st = [(0, 1)] (interpolation = \"faceVarying\")\n"
+                       "int[] primvars:st:indices = [0, 0, 0, 0, 0, 0]\n"
+                       "int[] creaseIndices = [0, 1]\nint[] creaseLengths = [2]\nfloat[] creaseSharpnesses = [2]"));
   EXPECT_EQ(mesh.num_vertices(), 8);
   EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7}));
   EXPECT_EQ(mesh.objects.of_face, (Ids{0, 0, 1, 1}));
@@ -355,8 +361,9 @@ TEST(Usd, MeshesOfASceneAreOneMesh) {
   EXPECT_EQ(Eigen::RowVector2d(mesh.face_varying[0].values.row(mesh.face_varying[0].indices[6])),
             Eigen::RowVector2d(0, 1));
   EXPECT_EQ(mesh.notes.size(), 4u);  // red, green, blue and st are not those of all
-  expect_error<InvalidMesh>([] { (void)read(square("a") + square("b", "token interpolateBoundary = \"none\"")); },
-                            {"scene.usda:9: /b: interpolateBoundary", "/a", "flatten"});
+  expect_error<InvalidMesh>(
+      [] { (void)read(square_prim("a") + square_prim("b", "token interpolateBoundary = \"none\"")); },
+      {"scene.usda:9: /b: interpolateBoundary", "/a", "flatten"});
 }
 
 TEST(Usd, PackagesHoldStoredFilesAtMultiplesOf64) {
@@ -395,12 +402,12 @@ TEST(Usd, PackagesHoldStoredFilesAtMultiplesOf64) {
 }
 
 TEST(Usd, ReferencesInAPackageAreRead) {
-  const std::string scene = layer("def \"a\" ( references = @parts/b.usda@ ) { }"),
-                    part = layer("( defaultPrim = \"q\" )\n" + square("q", "int[] holeIndices = [1]"));
+  const std::string scene = usd_layer("def \"a\" ( references = @parts/b.usda@ ) { }"),
+                    part = usd_layer("( defaultPrim = \"q\" )\n" + square_prim("q", "int[] holeIndices = [1]"));
   const Mesh mesh = parse_usd(format_usdz({{"scene.usda", scene}, {"parts/b.usda", part}}, "p"), "p.usdz");
   EXPECT_EQ(mesh.holes, Ids{1});
   EXPECT_EQ(mesh.objects.names, Names{"a"});
-  const Mesh without = parse_usd(format_usdz({{"scene.usda", scene + square("m")}}, "p"), "p.usdz");
+  const Mesh without = parse_usd(format_usdz({{"scene.usda", scene + square_prim("m")}}, "p"), "p.usdz");
   ASSERT_EQ(without.warnings.size(), 1u);
   EXPECT_NE(without.warnings[0].find("p.usdz[scene.usda]:2: 'parts/b.usda' is not in the package"), std::string::npos)
       << without.warnings[0];
@@ -479,7 +486,7 @@ TEST(Usd, WhatIsWrittenIsRead) {
 
 // Objects that are apart are prims of their own; those that share vertices are one mesh, or it would break.
 TEST(Usd, ObjectsArePrimsWhereTheyShareNoVertex) {
-  Mesh two = read(square("a") + square("b"));
+  Mesh two = read(square_prim("a") + square_prim("b"));
   const std::string apart = format_usda(two);
   EXPECT_NE(apart.find("def Mesh \"a\""), std::string::npos);
   EXPECT_NE(apart.find("def Mesh \"b\""), std::string::npos);
@@ -506,10 +513,10 @@ TEST(Usd, SamplesInTimeAreFrames) {
   EXPECT_EQ(meshes[0].mesh.positions(0, 2), -1);
   EXPECT_EQ(usd_points(meshes[0], 1)(0, 2), 2);
   const TemporaryDirectory directory;
-  const MeshFrames frames = read_usd_frames(directory.write(
-      "a.usda", layer("def Xform \"w\" { double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 4: (8, 0, 0) }\n"
-                      "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n" +
-                      text.substr(text.find('\n')) + "}\n" + square("still"))));
+  const UsdFrames frames = read_usd_frames(directory.write(
+      "a.usda", usd_layer("def Xform \"w\" { double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 4: (8, 0, 0) }\n"
+                          "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n" +
+                          text.substr(text.find('\n')) + "}\n" + square_prim("still"))));
   ASSERT_EQ(frames.count, 4);  // -1, 0, 2, 4
   for (std::int64_t k = 0; k < 4; ++k) {
     const Points points = frames.positions(k);

@@ -108,12 +108,14 @@ class GltfScene {
 
   /// A name that all formats can write.
   std::string clean(std::string name) {
+    const std::string given = name;
     for (std::size_t i = 0; i < name.size(); ++i) {
       char& c = name[i];
-      if (c != '#' && c != '\n' && c != '\r' && (c != '\\' || i + 1 < name.size())) continue;
-      c = '_';
-      has_cleaned_ = true;
+      const bool is_control = static_cast<unsigned char>(c) < ' ' || c == '\x7f';
+      const bool is_comment = c == '#' && (i == 0 || name[i - 1] == ' ');
+      if (is_control || is_comment || (c == '\\' && i + 1 == name.size())) c = '_';
     }
+    has_cleaned_ = has_cleaned_ || name != given;
     return name;
   }
 
@@ -240,7 +242,8 @@ class GltfScene {
       mesh_.notes.push_back(name + "welded " + format_number(file_vertices_) + " vertices of the file to " +
                             format_number(positions_.size()));
     if (has_looks_) mesh_.notes.push_back(name + "of materials the names are kept, not their colours and textures");
-    if (has_cleaned_) mesh_.notes.push_back(name + "line ends, # and a last \\ in names are replaced by _");
+    if (has_cleaned_)
+      mesh_.notes.push_back(name + "line ends, # behind blanks and a last \\ in names are replaced by _");
     mesh_.warnings = file_.warnings;
     for (std::string& message : reservations_.messages(file_.name())) mesh_.warnings.push_back(std::move(message));
   }

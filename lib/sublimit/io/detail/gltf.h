@@ -19,6 +19,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sublimit/mesh/mesh.h"
 
@@ -38,6 +39,8 @@ Mesh parse_gltf(std::string_view bytes, std::string_view name, const std::filesy
 /// Returns true if text begins as the JSON of a glTF file does.
 bool begins_gltf(std::string_view text);
 
+/// Returns what a file changes of a mesh beside the precision of its numbers, a sentence each.
+std::vector<std::string> changes_in_gltf(const Mesh& mesh);
 /// Returns a mesh as the bytes of a .glb file.
 /// @throws InvalidParameter  arrays that do not fit together
 /// @throws InvalidMesh       numbers that are not finite, or beyond floats

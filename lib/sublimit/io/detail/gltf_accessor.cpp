@@ -65,10 +65,10 @@ GltfAccessor::Rows GltfAccessor::rows(GltfFile& file, const GltfObject& object, 
   const std::int64_t number = object.index(view_key, file.root().size("bufferViews"), "buffer views");
   if (number < 0) object.fail(std::string("it has no '") + view_key + "'");
   const GltfObject view = file.root().element("bufferViews", number);
-  if (const std::optional<GltfObject> extensions = view.object("extensions"))
+  const std::int64_t buffer = view.index("buffer", file.root().size("buffers"), "buffers");
+  if (const std::optional<GltfObject> extensions = view.object("extensions"); extensions && buffer > 0)
     for (const std::string& name : extensions->keys())
-      if (name.find("compression") != std::string::npos &&
-          !file.root().element("buffers", view.integer("buffer")).has("uri"))
+      if (name.find("compression") != std::string::npos && !file.root().element("buffers", buffer).has("uri"))
         view.fail("its data are compressed by " + in_quotes(name) + ", which cannot be read; export the file without");
   const std::string_view bytes = file.view(number);
   const std::int64_t offset = object.integer("byteOffset", 0), stride = view.integer("byteStride", row_bytes);

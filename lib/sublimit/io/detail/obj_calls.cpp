@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/gzip.h"
 #include "sublimit/io/detail/obj_names.h"
@@ -56,8 +57,16 @@ class Caller {
   }
 
   void call(const fs::path& from, const std::string& name, const std::string& place) {
-    fs::path path = from.parent_path() / name;
+    fs::path path = directory_of_names_in(from) / name;
     std::error_code failed;
+    if (name.empty()) {
+      result_.warnings.push_back(place + "call left out: it names no file");
+      return;
+    }
+    if (fs::is_directory(path, failed)) {
+      result_.warnings.push_back(place + "call of " + in_quotes(name) + " left out: it is a directory");
+      return;
+    }
     if (!fs::is_regular_file(path, failed) && name.find(' ') != std::string::npos) {
       result_.warnings.push_back(place + "call of " + in_quotes(name) +
                                  " left out: arguments of calls are not understood");

@@ -387,7 +387,7 @@ Mesh merged(const std::vector<UsdMesh>& meshes, UsdStage& stage, std::vector<std
 
 Mesh read_usd(const std::filesystem::path& path) { return read_stage(UsdStage(path), path.string()); }
 
-MeshFrames read_usd_frames(const std::filesystem::path& path) {
+UsdFrames read_usd_frames(const std::filesystem::path& path) {
   const auto stage = std::make_shared<UsdStage>(path);
   std::vector<std::string> none;
   std::vector<double> times;

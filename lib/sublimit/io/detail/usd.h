@@ -15,7 +15,6 @@
 #include <string>
 #include <string_view>
 
-#include "sublimit/io/detail/mesh_frames.h"
 #include "sublimit/mesh/mesh.h"
 
 namespace sublimit {
@@ -27,10 +26,6 @@ namespace sublimit {
 Mesh read_usd(const std::filesystem::path& path);
 /// Reads the same from bytes; what the scene refers to beside itself is missing.
 Mesh parse_usd(std::string_view bytes, std::string_view name);
-
-/// Reads the positions of all times at which something of a scene's meshes has a sample, as frames: points, and
-/// transforms, between their samples linearly interpolated.
-MeshFrames read_usd_frames(const std::filesystem::path& path);
 
 /// Returns a mesh as the text of a layer. A mesh without objects is the prim `mesh`.
 /// @throws InvalidParameter  arrays that do not fit together

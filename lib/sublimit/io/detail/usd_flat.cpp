@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <array>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "sublimit/base/detail/format_number.h"
@@ -58,8 +62,8 @@ std::string list_of_rows(const Points& rows, ValueType type) {
 /// The statement of a property that is there, of the strongest opinion that has it; null if there is none.
 const UsdProperty* declared(const UsdMesh& mesh, std::string_view name) {
   for (const UsdPrim::Opinion& opinion : mesh.opinions)
-    for (const UsdProperty& property : opinion.spec->properties)
-      if (property.name == name) return &property;
+    for (const char* const part : {"timeSamples", ""})
+      if (const UsdProperty* const property = opinion.spec->property(name, part)) return property;
   return nullptr;
 }
 
@@ -217,15 +221,29 @@ PrimEdit edit_of(const UsdFlat& flat, std::vector<std::string>& warnings) {
   return edit;
 }
 
-/// The faces of a subset among the triangles.
-std::string faces_of_subset(const UsdSubset& subset, const UsdFlat& flat) {
-  std::vector<bool> inside(std::size_t(flat.from->mesh.num_faces()), false);
-  for (const Index f : subset.faces) inside[std::size_t(f)] = true;
-  std::vector<Index> triangles;
-  for (std::size_t t = 0; t < flat.faces.size(); ++t)
-    if (inside[std::size_t(flat.faces[t])]) triangles.push_back(static_cast<Index>(t));
-  return list_of_indices(triangles);
-}
+/// The triangles of each face.
+class TrianglesOfFaces {
+ public:
+  TrianglesOfFaces(const std::vector<Index>& faces, Index num_faces) : first_(std::size_t(num_faces) + 1, 0) {
+    for (const Index f : faces) ++first_[std::size_t(f) + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    triangles_.resize(faces.size());
+    std::vector<std::size_t> next = first_;
+    for (std::size_t t = 0; t < faces.size(); ++t) triangles_[next[std::size_t(faces[t])]++] = static_cast<Index>(t);
+  }
+  std::vector<Index> of(const std::vector<Index>& faces) const {
+    std::vector<Index> all;
+    for (const Index f : faces)
+      all.insert(all.end(), triangles_.begin() + std::ptrdiff_t(first_[std::size_t(f)]),
+                 triangles_.begin() + std::ptrdiff_t(first_[std::size_t(f) + 1]));
+    std::ranges::sort(all);
+    return all;
+  }
+
+ private:
+  std::vector<std::size_t> first_;
+  std::vector<Index> triangles_;
+};
 
 class LayerEditor {
  public:
@@ -236,33 +254,34 @@ class LayerEditor {
     if (!spec) spec = find_usd_spec(layer_.root, path);
     std::string more;  // statements that are new
     const std::string indent = spec ? indent_of(spec->text) + "    " : "    ";
-    std::vector<const UsdProperty*> replaced;
+    std::unordered_set<const UsdProperty*> replaced;
+    const std::unordered_set<std::string_view> removed(edit.removed.begin(), edit.removed.end());
+    std::unordered_set<std::string_view> given;
+    for (const NewProperty& one : edit.properties) given.insert(one.name);
     for (NewProperty one : edit.properties) {
       one.value = indented(std::move(one.value), indent);
       const UsdProperty* const there = spec ? spec->property(one.name, one.part) : nullptr;
       const bool has_value = there && !there->value.empty();
       if (has_value && !one.replaces_metadata) {
         replace(there->value, one.value);
-        replaced.push_back(there);
+        replaced.insert(there);
         continue;
       }
       std::string statement = one.type + " " + one.name + (one.part.empty() ? "" : "." + one.part) + " = " + one.value;
       statement += usd_metadata(one.metadata, indent);
       if (there) {
         replace(there->text, statement);
-        replaced.push_back(there);
+        replaced.insert(there);
       } else {
         more += indent + statement + "\n";
       }
     }
     if (spec)
       for (const UsdProperty& property : spec->properties)
-        if (std::ranges::find(edit.removed, property.name) != edit.removed.end() &&
-            std::ranges::find(replaced, &property) == replaced.end())
-          remove(property.text);
+        if (removed.contains(property.name) && !replaced.contains(&property)) remove(property.text);
     // What weaker layers say is hidden.
     for (const std::string& name : edit.removed) {
-      if (std::ranges::find(edit.properties, name, &NewProperty::name) != edit.properties.end()) continue;
+      if (given.contains(name)) continue;
       for (const UsdPrim::Opinion& opinion : mesh.opinions)
         if (const UsdProperty* const weaker = opinion.spec->property(name);
             weaker && opinion.spec != spec && !weaker->value.empty()) {
@@ -399,12 +418,15 @@ std::string flattened_layer(const UsdStage& stage, const std::vector<UsdFlat>& f
       if (opinion.layer == &layer && opinion.from.empty() && opinion.spec->property("faceVertexIndices"))
         spec = opinion.spec;
     editor.apply(flat.from->path, spec, edit_of(flat, warnings), *flat.from);
+    const TrianglesOfFaces triangles(flat.faces, flat.from->mesh.num_faces());
+    std::unordered_map<std::string_view, const UsdSpec*> children;
+    if (spec)
+      for (const UsdSpec& child : spec->children) children[child.name] = &child;
     for (const UsdSubset& subset : flat.from->subsets) {
-      const UsdSpec* of_subset = nullptr;
-      if (spec)
-        for (const UsdSpec& child : spec->children)
-          if (subset.path.ends_with("/" + std::string(child.name))) of_subset = &child;
-      editor.apply(subset.path, of_subset, {{{"indices", "", "int[]", faces_of_subset(subset, flat)}}, {}}, UsdMesh());
+      const auto found = children.find(std::string_view(subset.path).substr(subset.path.rfind('/') + 1));
+      const UsdSpec* const of_subset = found == children.end() ? nullptr : found->second;
+      const std::string indices = list_of_indices(triangles.of(subset.faces));
+      editor.apply(subset.path, of_subset, {{{"indices", "", "int[]", indices}}, {}}, UsdMesh());
     }
   }
   return editor.finish();

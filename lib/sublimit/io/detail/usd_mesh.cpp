@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "sublimit/base/detail/format_number.h"
@@ -356,9 +357,10 @@ void read_primvar(const UsdPrim& prim, const Found& found, UsdMesh& out) {
   primvar.type = *type;
   int per_element = 1;
   for (const UsdPrim::Opinion& opinion : prim.opinions)
-    for (const UsdProperty& property : opinion.spec->properties) {
-      if (property.name != found.property->name) continue;
-      for (const UsdField& field : property.metadata) {
+    for (const char* const part : {"", "timeSamples"}) {
+      const UsdProperty* const property = opinion.spec->property(found.property->name, part);
+      if (!property) continue;
+      for (const UsdField& field : property->metadata) {
         if (field.key == "elementSize" && per_element == 1)
           per_element = usd_indices(*opinion.layer, field.value, "elementSize", 1, 1 << 20)[0];
         if (field.key != "interpolation" || primvar.interpolation != constant) continue;
@@ -399,11 +401,12 @@ void read_primvar(const UsdPrim& prim, const Found& found, UsdMesh& out) {
 void read_primvars(const UsdPrim& prim, UsdMesh& out) {
   constexpr std::string_view prefix = "primvars:", of_indices = ":indices";
   std::vector<std::string_view> names;
+  std::unordered_set<std::string_view> known;
   for (const UsdPrim::Opinion& opinion : prim.opinions)
     for (const UsdProperty& property : opinion.spec->properties) {
       const std::string_view name = property.name;
       if (!name.starts_with(prefix) || name.ends_with(of_indices) || name == "primvars:normals") continue;
-      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      if (known.insert(name).second) names.push_back(name);
     }
   for (const std::string_view name : names) {
     const Found found = prim.find(name);

@@ -9,6 +9,8 @@
 // Source: OpenUSD, "UsdGeomMesh", "UsdGeomPrimvar", "UsdGeomSubset", "UsdGeomXformable" (2024).
 #include <Eigen/Core>
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -83,6 +85,15 @@ Mesh mesh_of(const UsdMesh& one, const std::function<std::string(const std::stri
 /// @throws InvalidMesh  prims with other rules: one mesh has one of each
 Mesh merged(const std::vector<UsdMesh>& meshes, UsdStage& stage, std::vector<std::string> warnings,
             const std::function<const Mesh*(const UsdMesh&)>& instead = {});
+
+/// Positions in the space of the world, of all meshes of a scene one behind the other.
+struct UsdFrames {
+  std::int64_t count = 1;
+  std::function<Points(std::int64_t)> positions;  ///< of a frame, #V x 3
+};
+/// Reads a scene's frames: the times at which something of its meshes has a sample. Points and transforms are linear
+/// between their samples.
+UsdFrames read_usd_frames(const std::filesystem::path& path);
 
 /// Returns the name of values of a primvar: its own, or for one with several numbers that with the number, `v_0`.
 std::string component_name(const UsdPrimvar& primvar, int component);

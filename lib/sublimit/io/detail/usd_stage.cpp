@@ -243,7 +243,7 @@ void UsdStage::follow(const std::string& prim, const UsdPrim::Opinion& of, const
 }
 
 void UsdStage::expand(const std::string& prim, Opinions site, std::vector<Site>& active, Opinions& out) {
-  composed_ += std::ssize(site);
+  composed_ += active.empty() ? 0 : std::ssize(site);
   if (composed_ > most_opinions)
     throw ResourceError(root_layer().name + ": more than " + format_number(most_opinions) +
                         " prims are composed by references; a scene with fewer can be read");

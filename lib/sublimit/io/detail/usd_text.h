@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "sublimit/base/detail/format_number.h"
@@ -28,12 +29,13 @@ class UsdNames {
     if (identifier.empty() || std::isdigit(static_cast<unsigned char>(identifier[0])))
       identifier.insert(identifier.begin(), '_');
     std::string made = identifier;
-    for (int i = 1; !used_.insert(made).second; ++i) made = identifier + "_" + format_number(i);
+    for (int& next = next_[identifier]; !used_.insert(made).second;) made = identifier + "_" + format_number(++next);
     return made;
   }
 
  private:
   std::unordered_set<std::string> used_;
+  std::unordered_map<std::string, int> next_;  // the last number that was put behind an identifier
 };
 
 /// Writes a list of values in square brackets, eight of them in each line.

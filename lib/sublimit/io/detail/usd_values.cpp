@@ -16,8 +16,6 @@
 namespace sublimit {
 namespace {
 
-constexpr std::size_t npos = std::string_view::npos;
-
 [[noreturn]] void fail(const UsdLayer& layer, std::string_view at, const std::string& what) {
   throw FormatError(layer.place(at) + what);
 }
@@ -79,7 +77,8 @@ std::size_t read_number(std::string_view text, T& number) {
   if constexpr (std::is_same_v<T, double>) {
     // Beyond the range of a double the nearest one is infinite or 0.
     const std::string_view word = text.substr(0, length);
-    const bool tiny = word.find("e-") != npos || word.find("E-") != npos || word.find_first_of("eE") == npos;
+    const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos ||
+                      word.find_first_of("eE") == std::string_view::npos;
     if (error == std::errc::result_out_of_range)
       number = (word[0] == '-' ? -1 : 1) * (tiny ? 0 : std::numeric_limits<double>::infinity());
     else if (error != std::errc())
@@ -132,7 +131,7 @@ std::optional<UsdType> usd_type(std::string_view name) {
     return type;
   }
   const std::size_t digit = name.find_first_of("234");
-  if (digit == npos || digit + 2 < name.size()) return std::nullopt;
+  if (digit == std::string_view::npos || digit + 2 < name.size()) return std::nullopt;
   const std::string_view base = name.substr(0, digit), suffix = name.substr(digit + 1);
   const int n = name[digit] - '0';
   type.width = n;
@@ -190,7 +189,7 @@ std::vector<std::string> usd_texts(const UsdLayer& layer, std::string_view value
   for (std::size_t at = value.starts_with('[') ? 1 : 0; (at = skip_between(value, at)) < value.size();) {
     if (value[at] == ']') break;
     const std::size_t end = end_of_usd_value(value, at);
-    if ((value[at] != '"' && value[at] != '\'') || end == npos)
+    if ((value[at] != '"' && value[at] != '\'') || end == std::string_view::npos)
       fail(layer, value.substr(at), std::string(what) + ": a text in quotes should be here");
     texts.push_back(unquoted(value.substr(at, end - at)));
     at = end;
@@ -200,9 +199,9 @@ std::vector<std::string> usd_texts(const UsdLayer& layer, std::string_view value
 
 std::vector<std::string> usd_paths(std::string_view value) {
   std::vector<std::string> paths;
-  for (std::size_t at = value.find('<'); at != npos; at = value.find('<', at)) {
+  for (std::size_t at = value.find('<'); at != std::string_view::npos; at = value.find('<', at)) {
     const std::size_t end = value.find('>', at);
-    if (end == npos) break;
+    if (end == std::string_view::npos) break;
     paths.emplace_back(value.substr(at + 1, end - at - 1));
     at = end;
   }
@@ -216,7 +215,7 @@ std::vector<std::pair<std::string, std::string_view>> usd_dictionary(std::string
     std::string name;
     while (at < value.size() && value[at] != '=' && value[at] != '}') {
       const std::size_t end = end_of_usd_value(value, at);
-      if (end == npos || end == at) return entries;
+      if (end == std::string_view::npos || end == at) return entries;
       const std::string_view word = value.substr(at, end - at);
       name = word[0] == '"' || word[0] == '\'' ? unquoted(word) : std::string(word);
       at = skip_between(value, end);
@@ -224,7 +223,7 @@ std::vector<std::pair<std::string, std::string_view>> usd_dictionary(std::string
     if (at >= value.size() || value[at] != '=') break;
     at = skip_between(value, at + 1);
     const std::size_t end = end_of_usd_value(value, at);
-    if (end == npos || end == at) break;
+    if (end == std::string_view::npos || end == at) break;
     entries.emplace_back(std::move(name), value.substr(at, end - at));
     at = end;
   }
@@ -236,19 +235,19 @@ std::vector<UsdReference> usd_references(std::string_view value) {
   if (is_blocked(value)) return references;
   for (std::size_t at = value.starts_with('[') ? 1 : 0; (at = skip_between(value, at)) < value.size();) {
     const std::size_t end = end_of_usd_value(value, at);
-    if (end == npos || end == at) break;  // ']'
+    if (end == std::string_view::npos || end == at) break;  // ']'
     const std::string_view part = value.substr(at, end - at);
     if (part[0] == '@') {
       const std::size_t marks = part.starts_with("@@@") ? 3 : 1;
       references.push_back({.file = std::string(part.substr(marks, part.size() - 2 * marks)), .text = part});
     } else if (part[0] == '<') {
       const bool continues = !references.empty() && references.back().path.empty() &&
-                             value.substr(0, at).find_last_not_of(" \t\r\n") != npos &&
+                             value.substr(0, at).find_last_not_of(" \t\r\n") != std::string_view::npos &&
                              value[value.substr(0, at).find_last_not_of(" \t\r\n")] == '@';
       if (!continues) references.push_back({.text = part});
       references.back().path = std::string(part.substr(1, part.size() - 2));
     } else if (part[0] == '(' && !references.empty()) {
-      references.back().moved_in_time = part.find('=') != npos;
+      references.back().moved_in_time = part.find('=') != std::string_view::npos;
     }
     at = end;
   }
@@ -270,7 +269,8 @@ std::vector<std::pair<double, std::string_view>> usd_samples(const UsdLayer& lay
       fail(layer, value.substr(std::min(begin, value.size())), std::string(what) + ": ':' should follow a time");
     begin = skip_between(value, begin + 1);
     const std::size_t end = end_of_usd_value(value, begin);
-    if (end == npos || end == begin) fail(layer, value.substr(begin), std::string(what) + ": a value should follow");
+    if (end == std::string_view::npos || end == begin)
+      fail(layer, value.substr(begin), std::string(what) + ": a value should follow");
     samples.emplace_back(time, value.substr(begin, end - begin));
     at = end;
   }

@@ -13,12 +13,12 @@
 namespace sublimit {
 namespace {
 
-constexpr std::size_t npos = std::string_view::npos;
 constexpr int deepest = 500;  // prims in prims, far more than scenes have; each takes a part of the stack
 
 bool is_word_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || (static_cast<unsigned char>(c) & 0x80) != 0;
 }
+std::string key_of(std::string_view name, std::string_view part) { return std::string(name) + "." + std::string(part); }
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 /// The end of a comment that begins at `at`; `at` if none does.
@@ -27,7 +27,7 @@ std::size_t skip_comment(std::string_view text, std::size_t at) {
   if (rest.starts_with('#') || rest.starts_with("//")) return std::min(text.find('\n', at), text.size());
   if (rest.starts_with("/*")) {
     const std::size_t end = text.find("*/", at + 2);
-    return end == npos ? text.size() : end + 2;
+    return end == std::string_view::npos ? text.size() : end + 2;
   }
   return at;
 }
@@ -58,16 +58,16 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
     } else if (text[i] == quote) {
       return i + 1;
     } else if (text[i] == '\n') {
-      return npos;
+      return std::string_view::npos;
     }
   }
-  return npos;
+  return std::string_view::npos;
 }
 
 std::size_t end_of_asset(std::string_view text, std::size_t at) {
   const bool is_long = text.substr(at, 3) == "@@@";
   const std::size_t end = text.find(is_long ? "@@@" : "@", at + (is_long ? 3 : 1));
-  return end == npos ? npos : end + (is_long ? 3 : 1);
+  return end == std::string_view::npos ? std::string_view::npos : end + (is_long ? 3 : 1);
 }
 
 /// The end of a group in brackets.
@@ -79,7 +79,7 @@ std::size_t end_of_group(std::string_view text, std::size_t at) {
       open += c == '(' ? ')' : c == '[' ? ']' : '}';
       ++at;
     } else if (c == ')' || c == ']' || c == '}') {
-      if (open.empty() || open.back() != c) return npos;
+      if (open.empty() || open.back() != c) return std::string_view::npos;
       open.pop_back();
       ++at;
       if (open.empty()) return at;
@@ -94,9 +94,9 @@ std::size_t end_of_group(std::string_view text, std::size_t at) {
     } else {
       ++at;
     }
-    if (at == npos) return npos;
+    if (at == std::string_view::npos) return std::string_view::npos;
   }
-  return npos;
+  return std::string_view::npos;
 }
 
 class UsdaReader {
@@ -144,7 +144,8 @@ class UsdaReader {
   std::string_view word(std::string_view more = {}) {
     skip();
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (is_word_character(text_[at_]) || more.find(text_[at_]) != npos)) ++at_;
+    while (at_ < text_.size() && (is_word_character(text_[at_]) || more.find(text_[at_]) != std::string_view::npos))
+      ++at_;
     return text_.substr(begin, at_ - begin);
   }
   /// Takes the next word if it is this one.
@@ -163,7 +164,7 @@ class UsdaReader {
   std::string_view value(const char* of) {
     skip();
     const std::size_t begin = at_, end = end_of_usd_value(text_, at_);
-    if (end == npos) fail(begin, std::string("the value of ") + of + " that begins here has no end");
+    if (end == std::string_view::npos) fail(begin, std::string("the value of ") + of + " that begins here has no end");
     if (end == begin) fail(begin, std::string("a value of ") + of + " should be here, not " + what_is_here());
     at_ = end;
     return text_.substr(begin, end - begin);
@@ -174,7 +175,7 @@ class UsdaReader {
     const std::size_t begin = at_;
     if (!looks_at('"') && !looks_at('\'')) fail(at_, std::string("the name of ") + of + " should be here, in quotes");
     at_ = end_of_string(text_, at_);
-    if (at_ == npos) fail(begin, std::string("the name of ") + of + " has no end");
+    if (at_ == std::string_view::npos) fail(begin, std::string("the name of ") + of + " has no end");
     return text_.substr(begin + 1, at_ - begin - 2);
   }
 
@@ -250,6 +251,10 @@ class UsdaReader {
     if (!looks_at('}')) fail(begin, std::string("the brace of ") + what + " that opens here is not closed");
     spec.body = text_.substr(begin, at_ - begin);
     ++at_;
+    constexpr std::size_t many = 64;
+    if (spec.properties.size() >= many)
+      for (std::size_t i = 0; i < spec.properties.size(); ++i)
+        spec.by_name[key_of(spec.properties[i].name, spec.properties[i].part)] = i;
   }
 
   /// "name" = { "variant" { ... } ... }
@@ -323,6 +328,10 @@ const UsdField* UsdSpec::field(std::string_view key) const {
 }
 
 const UsdProperty* UsdSpec::property(std::string_view named, std::string_view part) const {
+  if (!by_name.empty()) {
+    const auto found = by_name.find(key_of(named, part));
+    return found == by_name.end() ? nullptr : &properties[found->second];
+  }
   const auto found = std::find_if(properties.rbegin(), properties.rend(), [&](const UsdProperty& property) {
     return property.name == named && property.part == part;
   });
@@ -344,7 +353,7 @@ const UsdSpec* find_usd_spec(const UsdSpec& root, std::string_view path) {
 
 std::string UsdLayer::place(std::string_view part) const {
   const auto before = static_cast<std::size_t>(part.data() - text.data());
-  return name + ":" + format_number(1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(before), '\n')) + ": ";
+  return name + ":" + format_number(1 + (std::ranges::lower_bound(lines, before) - lines.begin())) + ": ";
 }
 
 std::shared_ptr<const UsdLayer> parse_usda(std::string text, std::string name) {
@@ -352,6 +361,8 @@ std::shared_ptr<const UsdLayer> parse_usda(std::string text, std::string name) {
   auto layer = std::make_shared<UsdLayer>();
   layer->name = std::move(name);
   layer->text = std::move(text);
+  for (std::size_t at = 0; (at = layer->text.find('\n', at)) != std::string_view::npos; ++at)
+    layer->lines.push_back(at);
   UsdaReader(*layer).read();
   return layer;
 }
@@ -363,10 +374,12 @@ std::size_t end_of_usd_value(std::string_view text, std::size_t at) {
   if (c == '@') return end_of_asset(text, at);
   if (c == '<') {
     const std::size_t end = text.find('>', at);
-    return end == npos ? npos : end + 1;
+    return end == std::string_view::npos ? std::string_view::npos : end + 1;
   }
   if (c == '(' || c == '[' || c == '{') return end_of_group(text, at);
-  while (at < text.size() && (is_word_character(text[at]) || std::string_view("+-.:|").find(text[at]) != npos)) ++at;
+  while (at < text.size() &&
+         (is_word_character(text[at]) || std::string_view("+-.:|").find(text[at]) != std::string_view::npos))
+    ++at;
   return at;
 }
 

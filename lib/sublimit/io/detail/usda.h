@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace sublimit {
@@ -48,6 +49,9 @@ struct UsdSpec {
   std::string_view text = {};          ///< from the specifier to the closing brace
   std::string_view body = {};          ///< between its braces
 
+  /// Places of properties by "name.part", where they are many; the last one of a name.
+  std::unordered_map<std::string, std::size_t> by_name = {};
+
   /// Returns an entry of metadata; null if there is none.
   const UsdField* field(std::string_view key) const;
   /// Returns a property by its name and part; null if there is none. The last one wins.
@@ -58,7 +62,8 @@ struct UsdSpec {
 struct UsdLayer {
   std::string name;  ///< of the file, with which messages start
   std::string text;
-  UsdSpec root;  ///< metadata of the layer, and its prims
+  UsdSpec root;                    ///< metadata of the layer, and its prims
+  std::vector<std::size_t> lines;  ///< ends of the lines of the text
 
   UsdLayer() = default;
   UsdLayer(const UsdLayer&) = delete;
