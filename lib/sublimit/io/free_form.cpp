@@ -8,6 +8,7 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/free_form_checks.h"
 #include "sublimit/io/detail/gzip.h"
@@ -439,9 +440,10 @@ class FreeFormReader {
 
 FreeForm read_free_form(const std::filesystem::path& path) {
   std::error_code ignored;  // of a pipe, or no file at all: its reader says what is wrong
-  if (std::filesystem::is_regular_file(path, ignored)) {
+  const std::filesystem::path opened = opened_path(path);
+  if (std::filesystem::is_regular_file(opened, ignored)) {
     // The text, and of a control point, which is two characters at least, an index in a list that doubles.
-    const auto size = static_cast<double>(std::filesystem::file_size(path, ignored));
+    const auto size = static_cast<double>(std::filesystem::file_size(opened, ignored));
     check_memory(path.string() + ": " + bytes_in_words(size) + " of curves and surfaces", 7 * size,
                  "put them into several files");
   }

@@ -4,6 +4,7 @@
 #include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/formats.h"
 #include "sublimit/io/detail/gzip.h"
@@ -106,7 +107,7 @@ ControlPolygon read_polygon(const std::filesystem::path& path, bool tangents) {
     return format->parse_polygon(read_inflated(path), path.string(), tangents);
   }
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  const std::filesystem::file_status status = std::filesystem::status(opened_path(path), error);
   if (!std::filesystem::exists(status) || std::filesystem::is_directory(status)) read_file(path);
   throw FormatError(path.string() + ": unknown kind of polygon '" + file_extension(path) + "'; " +
                     io_formats().readers_in_words({contents::tangents, contents::polygons}, "and") + " can be read");

@@ -93,5 +93,29 @@ TEST(ParallelFor, BlocksCoverTheRangeOnce) {
   }
 }
 
+TEST(ParallelFor, CountsBlocksForAWatcher) {
+  LoopProgress progress;
+  watch_loops(&progress);
+  std::atomic<bool> is_between{true};
+  const auto inside = [&](std::int64_t, std::int64_t, std::int64_t) {
+    if (progress.blocks != 10 && progress.blocks != 2) is_between = false;
+    if (progress.done >= progress.blocks) is_between = false;
+    parallel_for_blocks(
+        64, [](std::int64_t, std::int64_t, std::int64_t) {}, 1);
+  };
+  parallel_for_blocks(10, inside, 1);
+  EXPECT_TRUE(is_between) << "loops inside are not counted";
+  EXPECT_EQ(progress.loops, 1);
+  EXPECT_EQ(progress.done, 10);
+  parallel_for_blocks(10, inside, 5);
+  EXPECT_EQ(progress.loops, 2);
+  EXPECT_EQ(progress.blocks, 2);
+  EXPECT_EQ(progress.done, 2);
+  watch_loops(nullptr);
+  parallel_for_blocks(
+      10, [](std::int64_t, std::int64_t, std::int64_t) {}, 1);
+  EXPECT_EQ(progress.loops, 2);
+}
+
 }  // namespace
 }  // namespace sublimit

@@ -2,15 +2,18 @@
 #pragma once
 // Output that appears whole or not at all: written under a temporary name next to the target, renamed at the end.
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -18,6 +21,7 @@
 
 #include "sublimit/base/detail/file_error.h"
 #include "sublimit/base/detail/followed_links.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/detail/temporaries.h"
 
 namespace sublimit {
@@ -26,17 +30,29 @@ namespace sublimit {
 ///
 /// Errors name the target and have the system's message: ResourceError for a full disk, else IoError. An existing
 /// target keeps its permissions. A link stays a link: the file at its end is written, even if it does not exist yet.
-/// Devices and pipes are written in place.
+/// Devices and pipes are written in place, and so is a standard stream ("/dev/stdout.ply", see standard_files.h), which
+/// may be a file that others write, too. What standard output is given after its reader has closed it is dropped.
 /// @note  Under a limit on file sizes the kernel sends SIGXFSZ, which kills the process; a program that ignores the
 ///        signal gets the error instead. A killed program leaves its temporary, ".NAME.PID-N.tmp"; one that exits
 ///        while it writes calls `Temporary::remove_all`.
 /// @note  No fsync: the rename is atomic for every process, not against power failure.
 class AtomicFile {
  public:
+  /// What is written: only the end, or also bytes before it, by `rewrite`.
+  enum class Access { at_end, anywhere };
+
   /// Opens a temporary beside the target.
   /// @param progress  called with the number of bytes written so far, at least every 4 MB, if given
-  explicit AtomicFile(const std::filesystem::path& target, std::function<void(std::int64_t)> progress = {})
+  explicit AtomicFile(const std::filesystem::path& target, std::function<void(std::int64_t)> progress = {},
+                      Access access = Access::at_end)
       : target_(target), destination_(target), progress_(std::move(progress)) {
+    if (const std::optional<StandardFile> stream = standard_file(target)) {
+      file_ = ::fcntl(stream->descriptor, F_DUPFD_CLOEXEC, 3);
+      if (file_ < 0) throw_file_error(target, "write", errno);
+      drops_unread_ = stream->descriptor == STDOUT_FILENO;
+      if (access == Access::anywhere) open_copy();
+      return;
+    }
     if (!target.has_filename()) throw_file_error(target, "write", EISDIR, "name a file");
     struct ::stat status {};
     const bool exists = ::stat(target.c_str(), &status) == 0;
@@ -45,6 +61,7 @@ class AtomicFile {
     if (exists && !S_ISREG(status.st_mode)) {
       file_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
       if (file_ < 0) throw_file_error(target, "write", errno);
+      if (access == Access::anywhere) open_copy();
       return;
     }
     std::error_code unresolved;
@@ -65,7 +82,8 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile() {
-    if (file_ >= 0) ::close(file_);
+    for (const int file : {file_, in_place_})
+      if (file >= 0) ::close(file);
   }
 
   /// Appends bytes. Small pieces are buffered, large ones written directly.
@@ -79,7 +97,10 @@ class AtomicFile {
     }
   }
 
-  /// Replaces bytes that were written before. Regular files only.
+  /// Returns true if the reader of standard output has closed it: nothing more will be written.
+  bool is_dropped() const { return is_dropped_; }
+
+  /// Replaces bytes that were written before, with access `anywhere`.
   void rewrite(std::int64_t at, std::string_view bytes) {
     flush();
     while (!bytes.empty()) {
@@ -94,6 +115,7 @@ class AtomicFile {
   /// Writes the rest of the buffer and renames the file to the target. Nothing may be written afterwards.
   void commit() {
     flush();
+    if (in_place_ >= 0) write_copy();
     // Some file systems report a full disk only here; the descriptor is gone whatever close says.
     if (::close(std::exchange(file_, -1)) != 0) throw_file_error(target_, "write", errno);
     if (temporary_.empty()) return;
@@ -111,10 +133,41 @@ class AtomicFile {
     buffer_.clear();
   }
 
+  // Bytes before the end cannot be replaced in a pipe: they are kept in a file without a name until all are there.
+  void open_copy() {
+    std::error_code failed;
+    const std::filesystem::path directory = std::filesystem::temp_directory_path(failed);
+    in_place_ = std::exchange(file_, ::open(failed ? "/tmp" : directory.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0600));
+    if (file_ < 0) throw_file_error(directory, "write", errno, "TMPDIR should name a directory for temporary files");
+  }
+
+  void write_copy() {
+    const int copy = std::exchange(file_, std::exchange(in_place_, -1));
+    in_place_ = copy;  // to be closed, whatever happens
+    std::array<char, buffer_size> block;
+    for (off_t at = 0;;) {
+      const ssize_t count = ::pread(copy, block.data(), block.size(), at);
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) throw_file_error(target_, "write", errno);
+      if (count == 0) break;
+      write_through({block.data(), std::size_t(count)});
+      at += count;
+    }
+  }
+
   void write_through(std::string_view bytes) {
-    while (!bytes.empty()) {
+    while (!bytes.empty() && !is_dropped_) {
       const ssize_t count = ::write(file_, bytes.data(), std::min(bytes.size(), largest_piece));
       if (count < 0 && errno == EINTR) continue;
+      if (count < 0 && errno == EAGAIN) {  // whoever shares the pipe made it so
+        pollfd ready{file_, POLLOUT, 0};
+        ::poll(&ready, 1, -1);
+        continue;
+      }
+      if (count < 0 && errno == EPIPE && drops_unread_) {
+        is_dropped_ = true;
+        break;
+      }
       if (count <= 0) throw_file_error(target_, "write", count < 0 ? errno : EIO);
       bytes.remove_prefix(std::size_t(count));
       written_ += count;
@@ -126,6 +179,9 @@ class AtomicFile {
   std::filesystem::path destination_;  // with links resolved
   Temporary temporary_;                // none: written in place, or already renamed
   int file_ = -1;
+  int in_place_ = -1;          // the target, while `file_` is a copy of its bytes
+  bool drops_unread_ = false;  // once its reader has closed it
+  bool is_dropped_ = false;
   std::string buffer_;
   std::int64_t written_ = 0;
   std::function<void(std::int64_t)> progress_;

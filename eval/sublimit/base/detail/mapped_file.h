@@ -16,6 +16,7 @@
 
 #include "sublimit/base/detail/file_error.h"
 #include "sublimit/base/detail/read_file.h"
+#include "sublimit/base/detail/standard_files.h"
 
 namespace sublimit {
 
@@ -40,9 +41,10 @@ inline MappedFile map_file(const std::filesystem::path& path) {
     auto text = std::make_shared<const std::string>(read_file(path));
     return MappedFile{std::as_bytes(std::span(*text)), text};
   };
+  const std::filesystem::path opened = opened_path(path);
   struct ::stat status {};
-  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return in_memory();  // a pipe is opened once
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (::stat(opened.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return in_memory();  // a pipe is opened once
+  const Descriptor file{::open(opened.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.number < 0 || ::fstat(file.number, &status) != 0) throw_file_error(path, "read", errno);
   if (!S_ISREG(status.st_mode) || status.st_size == 0) return in_memory();
   const auto size = static_cast<std::size_t>(status.st_size);

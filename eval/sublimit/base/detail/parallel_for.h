@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "sublimit/base/detail/interruption.h"
+#include "sublimit/base/detail/loop_progress.h"
 #include "sublimit/base/detail/thread_sanitizer.h"
 
 namespace sublimit {
@@ -46,14 +47,18 @@ struct LoopBlock {
 template <class Body>
 void parallel_for_blocks(std::int64_t count, const Body& body, std::int64_t size = block_size) {
   const std::int64_t blocks = num_blocks(count, size);
+  if (blocks <= 1) {  // small meshes never pay for the scheduler
+    if (blocks < 1) return;
+    check_interruption();
+    body(std::int64_t{0}, std::int64_t{0}, count);
+    return;
+  }
+  const detail::LoopCount counted(blocks, tbb::task::current_context() != nullptr);
   const auto run = [&](std::int64_t block) {
     check_interruption();
     body(block, block * size, std::min(count, (block + 1) * size));
+    counted.add();
   };
-  if (blocks <= 1) {  // small meshes never pay for the scheduler
-    if (blocks == 1) run(0);
-    return;
-  }
   const auto loop = [&] {
     const detail::HandOver hand_over;
     tbb::task_group_context own(tbb::task_group_context::isolated);
