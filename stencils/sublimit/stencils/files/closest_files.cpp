@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
 #include "sublimit/stencils/files/frames.h"
 #include "sublimit/stencils/formats/csv_fields.h"
+#include "sublimit/stencils/formats/row_file.h"
 
 namespace sublimit {
 Points read_query_points(const std::filesystem::path& path) {
@@ -32,8 +31,7 @@ Points read_query_points(const std::filesystem::path& path) {
 
 void write_closest_points(const std::filesystem::path& path, const ClosestPoints& found, bool with_query) {
   const std::vector<std::int64_t> query_of = owners_of_rows(found.first);
-  AtomicFile file(path);
-  file.write(std::string(with_query ? "point," : "") + "face,u,v,x,y,z,nx,ny,nz,distance,lower,status\n");
+  RowFile file(path, std::string(with_query ? "point," : "") + "face,u,v,x,y,z,nx,ny,nz,distance,lower,status\n");
   const auto append = [&](std::string& text, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       if (with_query) {
@@ -50,7 +48,7 @@ void write_closest_points(const std::filesystem::path& path, const ClosestPoints
       text += '\n';
     }
   };
-  RowWriter(file).rows(std::ssize(found.places), 512, append);
+  file.rows(std::ssize(found.places), 512, append);
   file.commit();
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
-#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/stencils/formats/csv_rows.h"
+#include "sublimit/stencils/formats/row_file.h"
 
 namespace sublimit {
 namespace {
@@ -27,8 +27,7 @@ std::int64_t write_field_samples(const std::filesystem::path& in, const std::fil
                                  const std::function<void(std::int64_t)>& progress) {
   constexpr std::int64_t told = 10'000;
   CsvRows rows(in, {"x", "y", "z"});
-  AtomicFile file(out);
-  file.write("x,y,z,value,gx,gy,gz,hxx,hxy,hxz,hyy,hyz,hzz,nx,ny,nz,gauss,mean\n");
+  RowFile file(out, "x,y,z,value,gx,gy,gz,hxx,hxy,hxz,hyy,hyz,hzz,nx,ny,nz,gauss,mean\n");
   std::int64_t count = 0;
   for (; rows.next(); ++count) {
     if (progress && count % told == 0) progress(count);

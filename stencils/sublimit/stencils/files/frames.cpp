@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "sublimit/base/detail/format_number.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/polygon_files.h"
+#include "sublimit/io/detail/usd_flat.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/npy.h"
@@ -29,18 +31,43 @@ bool read_numbers(std::ifstream& file, std::span<T> out) {
   return static_cast<bool>(file);
 }
 
+/// The points of a file with one frame.
+PointFile point_file(const std::filesystem::path& path) {
+  if (all_formats().reads(path, contents::meshes)) {
+    Mesh mesh = read_mesh(path);
+    Points points = mesh.positions;
+    return {std::move(points), names_of_channels(3), std::move(mesh)};
+  }
+  if (all_formats().reads(path, contents::polygons)) {
+    ControlPolygon read = read_polygon(path);
+    std::vector<std::string> names =
+        read.columns.empty() ? names_of_channels(read.points.cols()) : std::move(read.columns);
+    return {std::move(read.points), std::move(names), {}};
+  }
+  if (all_formats().reads(path, contents::arrays)) {
+    FrameReader array(path);
+    if (array.has_frames()) throw FormatError(path.string() + ": it holds many frames; files of a sequence hold one");
+    PointFile file{Points(array.num_points(), array.num_channels()), array.columns(), {}};
+    array.next({file.points.data(), std::size_t(file.points.size())});
+    return file;
+  }
+  throw FormatError(path.string() + ": points come from " +
+                    all_formats().readers_in_words({contents::meshes, contents::tangents, contents::arrays}, "or") +
+                    " files");
+}
+
 }  // namespace
 
 FrameReader::FrameReader(const std::filesystem::path& path) : path_(path) {
-  if (all_formats().reads(path, contents::meshes)) {
-    mesh_ = read_mesh(path);
-    points_ = mesh_->positions;
-    columns_ = names_of_channels(3);
-  } else if (all_formats().reads(path, contents::polygons)) {
-    ControlPolygon read = read_polygon(path);
-    points_ = std::move(read.points);
-    columns_ = read.columns.empty() ? names_of_channels(points_.cols()) : std::move(read.columns);
-  } else if (all_formats().reads(path, contents::arrays)) {
+  if (!all_formats().reads(path, contents::arrays)) {
+    take(point_file(path));
+    if (!all_formats().reads(path, contents::scenes)) return;
+    UsdFrames frames = read_usd_frames(opened_path(path));
+    if (frames.count < 2) return;
+    has_frames_ = true;
+    num_frames_ = frames.count;
+    positions_ = std::move(frames.positions);
+  } else {
     // Its header alone: of a long animation that is mapped, memory would hold all frames that were read.
     const NpyArray array(path);
     const std::vector<std::int64_t>& shape = array.shape();
@@ -55,22 +82,58 @@ FrameReader::FrameReader(const std::filesystem::path& path) : path_(path) {
     columns_ = names_of_channels(shape.back());
     is_float_ = array.dtype() == DType::F32;
     const auto bytes = static_cast<std::uintmax_t>(array.size()) * (is_float_ ? sizeof(float) : sizeof(double));
-    array_.open(path, std::ios::binary);
-    array_.seekg(static_cast<std::streamoff>(std::filesystem::file_size(path) - bytes));
-    return;
-  } else {
-    throw FormatError(path.string() + ": points come from " +
-                      all_formats().readers_in_words({contents::meshes, contents::tangents, contents::arrays}, "or") +
-                      " files");
+    array_.open(opened_path(path), std::ios::binary);
+    array_.seekg(static_cast<std::streamoff>(std::filesystem::file_size(opened_path(path)) - bytes));
   }
+}
+
+FrameReader::FrameReader(std::vector<std::filesystem::path> files,
+                         std::function<PointFile(const std::filesystem::path&)> read)
+    : path_(files.front()),
+      files_(std::move(files)),
+      read_(read ? std::move(read) : point_file),
+      num_frames_(std::ssize(files_)),
+      has_frames_(true) {
+  take(read_(path_));
+}
+
+void FrameReader::take(PointFile file) {
+  points_ = std::move(file.points);
+  columns_ = std::move(file.columns);
+  mesh_ = std::move(file.mesh);
   num_points_ = points_.rows();
+}
+
+void FrameReader::choose(std::int64_t first, std::int64_t last) {
+  if (!has_frames_) throw InvalidOption("--frames: " + path_.string() + " holds one frame, without a number");
+  if (last >= num_frames_)
+    throw InvalidOption("--frames: " + path_.string() + " holds " + format_number(num_frames_) + " frames, from 0 to " +
+                        format_number(num_frames_ - 1) + "; there is no frame " + format_number(last));
+  next_ = first;
+  num_frames_ = last - first + 1;
+  if (positions_) return;
+  const std::int64_t bytes = num_points_ * num_channels() * std::int64_t(is_float_ ? sizeof(float) : sizeof(double));
+  array_.seekg(first * bytes, std::ios::cur);
 }
 
 FrameReader::FrameReader(const std::filesystem::path& path, Points points, std::vector<std::string> columns)
     : path_(path), num_points_(points.rows()), columns_(std::move(columns)), points_(std::move(points)) {}
 
 void FrameReader::next(std::span<double> points) {
+  if (!files_.empty() && next_ > 0) {
+    const std::filesystem::path& file = files_[std::size_t(next_)];
+    PointFile read = read_(file);
+    if (read.points.rows() != num_points_ || std::ssize(read.columns) != num_channels())
+      throw InvalidMesh(file.string() + ": " + format_number(read.points.rows()) + " points of " +
+                        format_number(std::ssize(read.columns)) + " channels, and " + path_.string() + " has " +
+                        format_number(num_points_) + " of " + format_number(num_channels()) +
+                        "; all frames should have the same points");
+    path_ = file;
+    take(std::move(read));
+  }
+  if (positions_) points_ = positions_(next_);
   if (!array_.is_open()) {
+    ++next_;
     std::copy_n(points_.data(), points.size(), points.data());
     return;
   }

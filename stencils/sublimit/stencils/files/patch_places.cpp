@@ -4,7 +4,9 @@
 #include <fstream>
 
 #include "sublimit/base/detail/format_number.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit {
 namespace {
@@ -129,7 +131,11 @@ void OwnCurvePlaceReader::read(std::vector<CurvePlace>& batch, OwnCurvePlaces& p
 }
 
 bool has_own_places(const std::filesystem::path& path, std::string_view column) {
-  std::ifstream file(path);
+  if (all_formats().reads(path, contents::arrays)) {
+    const std::vector<std::string> names = NpyRows(path).columns();
+    return std::ranges::find(names, column) != names.end();
+  }
+  std::ifstream file(opened_path(path));
   std::string line;
   std::getline(file, line);
   const size_t begin = line.find_first_not_of(" \t\xef\xbb\xbf");

@@ -7,14 +7,13 @@
 #include <string>
 #include <utility>
 
-#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/ply.h"
 #include "sublimit/stencils/files/sample_files.h"
 #include "sublimit/stencils/formats/csv_fields.h"
 #include "sublimit/stencils/formats/formats.h"
+#include "sublimit/stencils/formats/row_file.h"
 
 namespace sublimit {
 namespace {
@@ -26,10 +25,8 @@ const std::array<std::string, 3> properties{"place_face", "place_u", "place_v"};
 
 void write_places(const std::filesystem::path& path, std::span<const Place> places) {
   constexpr std::int64_t rows_per_block = 4096;
-  AtomicFile file(path);
-  RowWriter out(file);
-  out.write("face,u,v\n");
-  out.rows(std::ssize(places), rows_per_block, [&](std::string& text, std::int64_t begin, std::int64_t end) {
+  RowFile file(path, "face,u,v\n");
+  file.rows(std::ssize(places), rows_per_block, [&](std::string& text, std::int64_t begin, std::int64_t end) {
     for (const Place& s : places.subspan(size_t(begin), size_t(end - begin))) {
       append_place(text, s);
       text += '\n';

@@ -3,12 +3,11 @@
 
 #include <string>
 
-#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
 #include "sublimit/stencils/formats/csv_fields.h"
 #include "sublimit/stencils/formats/csv_rows.h"
+#include "sublimit/stencils/formats/row_file.h"
 
 namespace sublimit {
 
@@ -37,8 +36,7 @@ std::vector<Ray> read_rays(const std::filesystem::path& path) {
 
 void write_ray_hits(const std::filesystem::path& path, const RayHits& hits) {
   const std::vector<std::int64_t> ray_of = owners_of_rows(hits.first);
-  AtomicFile file(path);
-  file.write("ray,t,face,u,v,x,y,z,nx,ny,nz,status\n");
+  RowFile file(path, "ray,t,face,u,v,x,y,z,nx,ny,nz,status\n");
   const auto append = [&](std::string& text, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       append_number(text, ray_of[size_t(i)]);
@@ -52,7 +50,7 @@ void write_ray_hits(const std::filesystem::path& path, const RayHits& hits) {
       text += '\n';
     }
   };
-  RowWriter(file).rows(std::ssize(hits.t), 512, append);
+  file.rows(std::ssize(hits.t), 512, append);
   file.commit();
 }
 

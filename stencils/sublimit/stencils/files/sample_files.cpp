@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/base/detail/row_writer.h"
 #include "sublimit/base/error.h"
 #include "sublimit/source/curvature.h"
 #include "sublimit/source/detail/why_outside.h"
@@ -36,7 +35,7 @@ SampleSummary write_batches(const std::filesystem::path& path, const Evaluation&
     summary.num_samples += static_cast<std::int64_t>(batch.size());
     for (const LimitStatus status : found.status) ++summary.by_status[size_t(status)];
     if (progress) progress(summary.num_samples);
-  } while (batch.size() == samples_per_batch);
+  } while (batch.size() == samples_per_batch && !writer->is_dropped());
   writer->commit();
   return summary;
 }
@@ -117,9 +116,7 @@ void append_found(std::string& out, const LimitSamples& found, std::int64_t i, S
 }
 
 SampleWriter::SampleWriter(const std::filesystem::path& path, SampleColumns columns, const OwnPlaces* own)
-    : file_(path), columns_(columns), own_(own) {
-  file_.write(own ? sample_header(columns, own->header()) : sample_header(columns));
-}
+    : file_(path, own ? sample_header(columns, own->header()) : sample_header(columns)), columns_(columns), own_(own) {}
 
 void SampleWriter::write(std::span<const Place> samples, const LimitSamples& found) {
   const auto append = [&](std::string& text, std::int64_t begin, std::int64_t end) {
@@ -131,7 +128,7 @@ void SampleWriter::write(std::span<const Place> samples, const LimitSamples& fou
       append_found(text, found, i, columns_);
     }
   };
-  RowWriter(file_).rows(std::ssize(samples), rows_per_text, append);
+  file_.rows(std::ssize(samples), rows_per_text, append);
 }
 
 std::string SampleSummary::text() const {

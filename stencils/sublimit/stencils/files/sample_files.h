@@ -6,8 +6,8 @@
 //   in    face,u,v
 //   out   face,u,v,status,x,y,z[,xu,yu,zu,xv,yv,zv[,xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv]],nx,ny,nz[,k1,k2,gauss,mean]
 //
-// Faces are numbered by `Addresses`. Numbers have the shortest form that reads back to the same bits; what does not
-// exist is an empty field.
+// An .npy has the same columns, as fields of records. Faces are numbered by `Addresses`. Numbers have the shortest form
+// that reads back to the same bits; what does not exist is an empty field.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -15,9 +15,9 @@
 #include <span>
 #include <vector>
 
-#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/stencils/files/patch_places.h"
 #include "sublimit/stencils/formats/csv_rows.h"
+#include "sublimit/stencils/formats/row_file.h"
 #include "sublimit/surface/limit_map.h"
 
 namespace sublimit {
@@ -81,9 +81,10 @@ class SampleWriter {
   /// @param found  of order `columns.order()`, with normals
   void write(std::span<const Place> samples, const LimitSamples& found);
   void commit() { file_.commit(); }
+  bool is_dropped() const { return file_.is_dropped(); }
 
  private:
-  AtomicFile file_;
+  RowFile file_;
   SampleColumns columns_;
   const OwnPlaces* own_;
 };

@@ -32,8 +32,10 @@ Cloud from_csv(const std::string& path) {
 }  // namespace
 
 Cloud read_cloud(const std::string& path, std::optional<Index> samples, unsigned seed) {
-  if (all_formats().reads(path, contents::rows)) {
-    if (samples) throw InvalidOption("--samples is for clouds from meshes; a .csv has no faces to take points from");
+  if (all_formats().reads(path, contents::rows) || all_formats().reads(path, contents::arrays)) {
+    if (samples)
+      throw InvalidOption("--samples is for clouds from meshes; a " + file_extension(path) +
+                          " has no faces to take points from");
     return from_csv(path);
   }
   Mesh mesh;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "sublimit/base/detail/format_number.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/stencils/fit_jobs/fit_job.h"
 #include "sublimit/stencils/formats/csv_rows.h"
@@ -57,7 +58,8 @@ Pins read_pins(const std::string& text, Index num_vertices) {
                                 [](unsigned char c) { return std::isdigit(c) || c == ',' || c == '-' || c == ' '; });
   if (list) return from_list(text, pinned);
   std::error_code ignored;
-  if (!all_formats().reads(text, contents::rows) && !std::filesystem::exists(text, ignored))
+  const bool is_file = all_formats().reads(text, contents::rows) || all_formats().reads(text, contents::arrays);
+  if (!is_file && !std::filesystem::exists(opened_path(text), ignored))
     throw InvalidOption("--pin " + text + ": neither a list of vertices, as 3,7, nor a file");
   return from_file(text, pinned);
 }

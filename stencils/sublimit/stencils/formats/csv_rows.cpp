@@ -11,8 +11,10 @@
 
 #include "sublimit/base/detail/file_error.h"
 #include "sublimit/base/detail/format_number.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/text_scanner.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit {
 namespace {
@@ -50,8 +52,13 @@ CsvRows::CsvRows(const std::filesystem::path& path, std::vector<std::string> col
 
 CsvRows::CsvRows(const std::filesystem::path& path, std::vector<std::vector<std::string>> headers,
                  const std::string& right)
-    : path_(path), block_(block_bytes) {
-  file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    : path_(path) {
+  if (all_formats().reads(path, contents::arrays)) {
+    open_array(headers, right);
+    return;
+  }
+  block_.resize(block_bytes);
+  file_ = ::open(opened_path(path).c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0) throw_file_error(path, "read", errno);
   try {
     std::string_view line;
@@ -69,14 +76,48 @@ CsvRows::CsvRows(const std::filesystem::path& path, std::vector<std::vector<std:
   }
 }
 
-CsvRows::~CsvRows() { ::close(file_); }
+void CsvRows::open_array(const std::vector<std::vector<std::string>>& headers, const std::string& right) {
+  array_.emplace(path_);
+  const std::vector<std::string> names = array_->columns();
+  const bool is_named = std::ranges::any_of(names, [](const std::string& name) { return !name.empty(); });
+  std::vector<size_t> taken;
+  for (const std::vector<std::string>& columns : headers) {  // the longest that it has: more of them are optional
+    taken.clear();
+    for (size_t i = 0; i < columns.size(); ++i) {
+      const auto found = std::ranges::find(names, columns[i]);
+      if (!is_named || found != names.end()) taken.push_back(is_named ? size_t(found - names.begin()) : i);
+    }
+    if (taken.size() != columns.size() || columns.size() <= columns_.size()) continue;
+    if (!is_named && columns.size() != names.size()) continue;
+    columns_ = columns;
+    taken_ = taken;
+  }
+  if (columns_.empty())
+    throw FormatError(path_.string() + ": " +
+                      (is_named ? "its fields are " + joined(names)
+                                : "an array of " + format_number(std::ssize(names)) + " columns") +
+                      "; the columns should be " + right);
+}
+
+CsvRows::~CsvRows() {
+  if (file_ >= 0) ::close(file_);
+}
 
 std::string CsvRows::header() const { return joined(columns_); }
 
-std::string CsvRows::place(std::int64_t line) const { return path_.string() + ":" + format_number(line) + ": "; }
+std::string CsvRows::place(std::int64_t line) const {
+  return path_.string() + (array_ ? "[" + format_number(line - 1) + "]: " : ":" + format_number(line) + ": ");
+}
 std::string CsvRows::place() const { return place(line_); }
 
 bool CsvRows::next_line(std::string_view& line) {
+  if (array_) {
+    if (line_ == array_->num_rows()) return false;
+    array_line_.clear();
+    array_->append_line(array_line_, line_++, taken_);
+    line = array_line_;
+    return true;
+  }
   size_t searched = 0;
   for (;;) {
     const char* const start = block_.data() + begin_;

@@ -3,12 +3,16 @@
 // Rows of a CSV with a known header, one at a time: a file of any length takes the memory of one block.
 //
 // Lines end with LF or CRLF; blanks around a field and empty lines at the end are left out. The byte order mark that
-// spreadsheets write is skipped.
+// spreadsheets write is skipped. An .npy has the same rows: records with fields of these names, others are left out, or
+// an array of rows x columns. Not-a-number is an empty field.
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "sublimit/stencils/formats/npy_records.h"
 
 namespace sublimit {
 
@@ -41,10 +45,11 @@ class CsvRows {
   bool is_empty(size_t column) const { return fields_[column].empty(); }
   /// Returns the line of this row, from 1.
   std::int64_t line() const { return line_; }
-  /// Returns "NAME:LINE: " of this row.
+  /// Returns "NAME:LINE: " of this row, "NAME[INDEX]: " of an .npy.
   std::string place() const;
 
  private:
+  void open_array(const std::vector<std::vector<std::string>>& headers, const std::string& right);
   bool next_line(std::string_view& line);
   std::string place(std::int64_t line) const;
   std::string header() const;
@@ -52,6 +57,9 @@ class CsvRows {
   std::filesystem::path path_;
   std::vector<std::string> columns_;
   std::vector<std::string_view> fields_;
+  std::optional<NpyRows> array_;
+  std::vector<size_t> taken_;  // columns of the array
+  std::string array_line_;
   int file_ = -1;
   std::vector<char> block_;
   size_t begin_ = 0, end_ = 0;  // text that was read and not yet returned

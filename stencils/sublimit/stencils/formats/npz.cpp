@@ -144,7 +144,7 @@ zip_int64_t archive_answer(void* state, void* data, zip_uint64_t length, zip_sou
 }
 
 void write_archive(const std::filesystem::path& path, std::vector<NamedEntry>& entries) {
-  Archive archive{.file = AtomicFile(path)};
+  Archive archive{.file = AtomicFile(path, {}, AtomicFile::Access::anywhere)};
   zip_error_t error;
   zip_error_init(&error);
   zip_source_t* const whole = zip_source_function_create(archive_answer, &archive, &error);
