@@ -14,7 +14,9 @@
 #include "support/heap.h"
 #include "support/input_files.h"
 #include "support/manual.h"
+#include "support/output_files.h"
 #include "support/standard_streams.h"
+#include "support/stream_arguments.h"
 #include "sublimit/base/error.h"
 #include "sublimit/base/version.h"
 
@@ -37,7 +39,8 @@ int run(int argc, char** argv) {
       "  sublimit sample cage.obj -s catmull-clark --random 1000 --derivatives 2 -o points.csv\n"
       "  sublimit fit cage.obj --targets points.csv -s catmull-clark -o fitted.obj\n"
       "  sublimit bake cage.obj -s catmull-clark -l 3 -o level3.safetensors\n"
-      "  sublimit apply level3.safetensors animation.npy -o refined.npy");
+      "  sublimit apply level3.safetensors animation.npy -o refined.npy\n"
+      "  sublimit refine - -s loop -l 2 -o - --format ply < cage.obj > refined.ply      standard input and output");
   std::vector<std::pair<std::string, cli::Command>> commands{{"schemes", cli::add_schemes(app)},
                                                              {"info", cli::add_info(app)},
                                                              {"refine", cli::add_refine(app)},
@@ -46,6 +49,7 @@ int run(int argc, char** argv) {
                                                              {"closest", cli::add_closest(app)},
                                                              {"intersect", cli::add_intersect(app)},
                                                              {"tessellate", cli::add_tessellate(app)},
+                                                             {"flatten", cli::add_flatten(app)},
                                                              {"step", cli::add_step(app)},
                                                              {"bake", cli::add_bake(app)},
                                                              {"construct", cli::add_construct(app)},
@@ -57,6 +61,7 @@ int run(int argc, char** argv) {
                                                              {"analyze", cli::add_analyze(app)},
                                                              {"fit", cli::add_fit(app)},
                                                              {"demo", cli::add_demo(app)}};
+  for (CLI::App* command : app.get_subcommands({})) cli::add_stream_format(*command);
   const cli::ParsedCommandLine line = cli::parse_command_line(app, argc, argv);
   fmt::print("{}", line.out);
   fmt::print(stderr, "{}", line.err);
@@ -66,6 +71,8 @@ int run(int argc, char** argv) {
   }
   for (const auto& [name, command] : commands)
     if (line.runs && app.got_subcommand(name)) {
+      cli::open_stream_arguments(*app.get_subcommand(name));
+      cli::check_output_files(*app.get_subcommand(name));
       cli::check_input_files(*app.get_subcommand(name));
       try {
         return command();

@@ -270,9 +270,6 @@ int analyze(const AnalyzeOptions& options) {
   if (!options.json.empty()) check_output_path(options.json, all_formats().writers({contents::reports}));
   if (!options.json.empty() && !options.common.mesh.empty())
     check_not_sidecar("--json", options.json, options.common.mesh);
-  if (std::error_code ignored; !options.json.empty() && options.common.scheme.empty() &&
-                               std::filesystem::equivalent(options.json, options.common.mesh, ignored))
-    throw InvalidOption("--json " + options.json + ": this file holds the recipes; choose another name");
   const int jobs = !options.common.mesh.empty() + options.has("--mask") + options.has("--sweep");
   if (jobs > 1) throw InvalidOption("a mesh or curve, --mask and --sweep are jobs of their own; give one of them");
   if (options.has("--mask")) return refuse_others(options, "a mask"), analyze_mask(options);

@@ -11,6 +11,7 @@
 
 #include "commands/bake_manifest.h"
 #include "support/memory_limit.h"
+#include "support/facts.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
 
@@ -25,13 +26,25 @@ struct BakeOptions {
   std::function<std::string()> of_one_table;
 };
 
+/// `49 points of 8 control points, 3 blocks, 2 groups, 6 patches`
+void say_points(Facts& facts, const BakeOutcome& outcome, const BakeStatistics& s) {
+  facts.say("{points} points of {control_points} ", {{"points", s.points}, {"control_points", outcome.control_points}});
+  facts.add(
+      {{"types", s.types}, {"weights", s.weights}, {"method", s.method == BakeMethod::rows ? "rows" : "patterns"}});
+  facts.say(in_words(s) + "\n");
+}
+
 void print_plan(const BakeJob& job, const BakeOutcome& outcome) {
   const BakeStatistics& s = outcome.plan->statistics;
   const double bytes = double(s.bytes + s.channel_bytes) - (job.is_float ? 4.0 * double(s.weights) : 0);
-  fmt::print("{} points of {} {}\n", s.points, outcome.control_points, in_words(s));
-  fmt::print("{}{} of table in {}, about {} of memory to bake it\n",
-             s.method == BakeMethod::rows || s.channel_bytes > 0 ? "about " : "", bytes_in_words(bytes),
-             job.is_float ? "float" : "double", bytes_in_words(outcome.plan->memory));
+  Facts facts("bake");
+  say_points(facts, outcome, s);
+  facts.say(s.method == BakeMethod::rows || s.channel_bytes > 0 ? "about " : "");
+  facts.say("{table_bytes} of table in {precision}, about {memory_bytes} of memory to bake it\n",
+            {bytes_fact("table_bytes", bytes),
+             {"precision", job.is_float ? "float" : "double"},
+             bytes_fact("memory_bytes", outcome.plan->memory)});
+  facts.print(job.common);
 }
 
 int run_manifest(const BakeOptions& options, const BakeJob& defaults) {
@@ -63,11 +76,17 @@ int run(const BakeOptions& options) {
   if (!job.is_plan) dictionaries.save();
   progress.step("");
   if (job.is_plan) print_plan(job, outcome);
-  if (job.is_plan || job.common.quiet) return 0;
+  if (job.is_plan) return 0;
   const BakeStatistics& s = outcome.statistics;
-  fmt::print("{}: {} points of {} {}\n", job.output, s.points, outcome.control_points, in_words(s));
-  fmt::print("{} in memory in {}, a file of {}; {:.3f} s\n", bytes_in_words(double(s.bytes + s.channel_bytes)),
-             options.precision, bytes_in_words(double(outcome.file_bytes)), time.count());
+  Facts facts("bake");
+  facts.say("{output}: ", {{"output", job.output}});
+  say_points(facts, outcome, s);
+  facts.say("{memory_bytes} in memory in {precision}",
+            {bytes_fact("memory_bytes", double(s.bytes + s.channel_bytes)), {"precision", options.precision}});
+  if (outcome.file_bytes > 0)
+    facts.say(", a file of {file_bytes}", {bytes_fact("file_bytes", double(outcome.file_bytes))});
+  facts.say("; {seconds}\n", {seconds_fact("seconds", time.count())});
+  facts.print(job.common);
   return 0;
 }
 
@@ -106,6 +125,7 @@ Command add_bake(CLI::App& app) {
       ->check(CLI::IsMember({"float", "double"}));
   command->add_option("-o,--output", job.output, "OUT.safetensors");
   command->add_flag("--plan", job.is_plan, "Only tell what would be made, and what it would take");
+  add_json(*command, job.common);
   add_memory_limit(*command, options->memory_limit);
   command->add_option("--manifest", options->manifest, "JOBS.jsonl: many tables, a JSON object a line");
   command->add_option("--shard", options->shard, "i/n: only every n-th job of the manifest, from the i-th on");

@@ -132,7 +132,9 @@ void write_table(const BakeJob& job, const Baked& baked, BakeOutcome& outcome, P
   } else {
     save_table(job.output, baked.table);
   }
-  outcome.file_bytes = static_cast<std::int64_t>(std::filesystem::file_size(job.output));
+  std::error_code failed;  // of a pipe, which has no size
+  const auto bytes = std::filesystem::file_size(job.output, failed);
+  outcome.file_bytes = failed ? 0 : static_cast<std::int64_t>(bytes);
 }
 
 /// A table of the free-form surfaces of a file: without a scheme.

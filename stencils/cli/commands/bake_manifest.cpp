@@ -15,6 +15,7 @@
 #include "support/peak_memory.h"
 #include "sublimit/base/detail/file_error.h"
 #include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit::cli {
@@ -25,7 +26,7 @@ class Log {
  public:
   explicit Log(const std::string& path) : path_(path) {
     if (path.empty()) return;
-    file_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    file_ = ::open(opened_path(path).c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) throw_file_error(path, "write", errno);
   }
   Log(const Log&) = delete;

@@ -12,6 +12,7 @@
 #include "sublimit/stencils/files/closest_files.h"
 #include "sublimit/stencils/formats/formats.h"
 #include "support/memory_limit.h"
+#include "support/facts.h"
 
 namespace sublimit::cli {
 namespace {
@@ -52,7 +53,7 @@ ClosestPoints search_of(const PartedSurface& surface, const Points& queries, con
 
 int run(const ClosestOptions& options) {
   const Source source = load_source(options.common, {"closest", {SourceKind::mesh, SourceKind::patches}});
-  check_output_path(options.output, all_formats().writers({contents::rows}));
+  check_output_path(options.output, all_formats().writers({contents::rows, contents::arrays}));
   const ClosestPointOptions search = search_options(options);
   Progress progress(options.common.quiet);
   progress.step("reading " + options.points);
@@ -63,19 +64,23 @@ int run(const ClosestOptions& options) {
   progress.step("writing " + options.output);
   write_closest_points(options.output, found, !options.nearest.empty() || !options.radius.empty());
   progress.step("");
-  if (options.common.quiet) return 0;
-  fmt::print("{}: {} points", options.output, queries.rows());
+  Facts facts("closest");
+  facts.say("{output}: {points} points", {{"output", options.output}, {"points", queries.rows()}});
   if (!options.nearest.empty() || !options.radius.empty()) {
     std::int64_t without = 0;
     for (size_t i = 0; i + 1 < found.first.size(); ++i) without += found.first[i] == found.first[i + 1];
-    fmt::print(", {} rows", found.places.size());
-    if (without > 0) fmt::print("; {} points have no face within {}", without, options.radius);
+    facts.say(", {rows} rows", {{"rows", found.places.size()}});
+    if (without > 0)
+      facts.say("; {points_without} points have no face within {radius}",
+                {{"points_without", without}, {"radius", options.radius}});
   }
   if (!found.places.empty())
-    fmt::print(", {} to {} from the limit; bounds are at most {} below", format_number(found.distances.minCoeff()),
-               format_number(found.distances.maxCoeff()),
-               format_number((found.distances.cwiseAbs() - found.lower).maxCoeff()));
-  fmt::print("\n");
+    facts.say(", {least_distance} to {largest_distance} from the limit; bounds are at most {bound_below} below",
+              {{"least_distance", found.distances.minCoeff()},
+               {"largest_distance", found.distances.maxCoeff()},
+               {"bound_below", (found.distances.cwiseAbs() - found.lower).maxCoeff()}});
+  facts.say("\n");
+  facts.print(options.common);
   return 0;
 }
 
@@ -85,6 +90,7 @@ Command add_closest(CLI::App& app) {
   auto* command = app.add_subcommand("closest", "Find the nearest points of the limit, or of patches");
   auto options = std::make_shared<ClosestOptions>();
   add_mesh(*command, options->common, false);
+  add_json(*command, options->common);
   command
       ->add_option(
           "--points", options->points,

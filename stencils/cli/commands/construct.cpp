@@ -5,6 +5,7 @@
 
 #include "support/common.h"
 #include "support/recipes.h"
+#include "support/facts.h"
 #include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/recipes/detail/net_file.h"
 
@@ -22,13 +23,23 @@ std::string counted(size_t count, const char* what) {
 
 int run(const ConstructJob& job) {
   check_output_path(job.output, all_formats().writers({contents::free_form}));
+  Progress progress(job.common.quiet);
+  progress.step("reading " + job.common.mesh);
   const std::vector<Recipe> recipes = read_recipes(job.common.mesh);
+  progress.step("");
   if (!job.common.quiet) tell_notes(recipes);
+  progress.step("making nets");
   const FreeForm nets = net_file(recipes);
+  progress.step("writing " + job.output);
   write_free_form(job.output, nets);
-  if (!job.common.quiet)
-    fmt::print("{}: {}{}{} control points\n", job.output, counted(nets.surfaces.size(), "surface"),
-               counted(nets.curves.size(), "curve"), nets.vertices.rows());
+  progress.step("");
+  Facts facts("construct");
+  facts.say("{output}: {surfaces}{curves}{control_points} control points\n",
+            {{"output", job.output},
+             {"surfaces", nets.surfaces.size(), counted(nets.surfaces.size(), "surface")},
+             {"curves", nets.curves.size(), counted(nets.curves.size(), "curve")},
+             {"control_points", nets.vertices.rows()}});
+  facts.print(job.common);
   return 0;
 }
 
@@ -40,6 +51,7 @@ Command add_construct(CLI::App& app) {
   auto job = std::make_shared<ConstructJob>();
   command->add_option("RECIPE", job->common.mesh, "Recipes: a .json, one object or {\"recipes\": [..]}")->required();
   command->add_option("-o,--output", job->output, "NET.obj: cstype bezier, bspline, rat where rational")->required();
+  add_json(*command, job->common);
   command->add_flag("--quiet", job->common.quiet, "No warnings, no summary");
   std::string kinds;
   size_t width = 0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/eval/file/table_file.h"
 #include "sublimit/stencils/files/export_table.h"
 #include "sublimit/stencils/formats/formats.h"
@@ -15,7 +16,7 @@ struct ExportOptions {
 int write_export(const ExportOptions& options) {
   // A directory is made, and may be named with a slash at its end.
   const std::filesystem::path output = options.output;
-  const bool is_directory = !output.has_extension();
+  const bool is_directory = !output.has_extension() && !standard_file(output);
   if (!is_directory) check_output_path(options.output, all_formats().writers({contents::table_rows}));
   limit_threads(options.common);
   Progress progress(options.common.quiet);

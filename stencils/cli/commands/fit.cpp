@@ -7,6 +7,7 @@
 #include "support/common.h"
 #include "support/free_form.h"
 #include "support/memory_limit.h"
+#include "support/facts.h"
 #include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/stencils/files/level_files.h"
@@ -91,7 +92,10 @@ void write_outputs(const FitOptions& options, const std::function<void()>& write
   if (!options.picture.empty()) write_text(options.picture, picture);
   if (!options.report.empty()) write_text(options.report, fit_report(report));
   progress.step("");
-  if (!options.common.quiet) fmt::print("{}", fit_summary(report));
+  if (options.common.json)
+    fmt::print("{}", fit_report(report));
+  else if (!options.common.quiet)
+    fmt::print("{}", fit_summary(report));
 }
 
 int fit_linear(const FitOptions& options, Progress& progress,
@@ -246,6 +250,7 @@ Command add_fit(CLI::App& app) {
   FitSettings& settings = options->settings;
   add_mesh(*command, options->common, false);
   add_attributes(*command, options->common);
+  add_json(*command, options->common);
   command->get_option("MESH")->description(
       "Control mesh: .obj (with tags), .ply, .off or .stl, or without -s free-form surfaces (.obj); MESH.json beside a mesh "
       "overrides tags");

@@ -9,6 +9,7 @@
 #include "support/common.h"
 #include "support/loaded_library.h"
 #include "support/memory_limit.h"
+#include "support/facts.h"
 #include "openvdb/entry.h"
 #include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/error.h"
@@ -121,13 +122,16 @@ void write_whole(const std::string& path, const std::string& text) {
 }
 
 int sample_places(const ImplicitJob& job, const FieldJob& field, Progress& progress) {
-  check_output_path(job.output, all_formats().writers({contents::rows}));
+  check_output_path(job.output, all_formats().writers({contents::rows, contents::arrays}));
   progress.step("evaluating");
   const std::int64_t count = write_field_samples(job.at, job.output, *field.field, [&](std::int64_t done) {
     progress.note(fmt::format("evaluating, {} places done", done));
   });
   progress.step("");
-  if (!job.common.quiet) fmt::print("{}: {} places of {}\n", job.output, count, field.name);
+  Facts facts("implicit");
+  facts.say("{output}: {places} places of {field}\n",
+            {{"output", job.output}, {"places", count}, {"field", field.name}});
+  facts.print(job.common);
   return 0;
 }
 
@@ -153,17 +157,31 @@ int make_mesh(const ImplicitJob& job, const FieldJob& field, Progress& progress)
   if (!job.report.empty()) write_whole(job.report, report(job, field, mesh));
   if (!job.picture.empty()) write_whole(job.picture, drawn);
   progress.step("");
-  if (job.common.quiet) return mesh.met() ? 0 : 1;
   const LevelSetError& e = mesh.attempt.error;
-  fmt::print(
-      "{}: {} faces, {} creases, {} corners, Euler characteristic {}, {} components ({} cells, split {} times)\n",
-      job.output, mesh.cage.num_faces(), mesh.cage.creases.size(), mesh.cage.corners.size(), mesh.counts.euler,
-      mesh.counts.components, mesh.attempt.cells, mesh.attempt.splits);
-  fmt::print("  limit off the surface by {:.3g} at most, {:.3g} in the mean; normals by {:.3g} and {:.3g} rad\n",
-             e.largest, e.mean, e.largest_angle, e.mean_angle);
-  fmt::print("  tolerance {:.3g}: {}\n", mesh.tolerance,
-             mesh.met() ? "met" : "not met; take more --cells or a larger --tolerance");
-  for (const std::string& note : mesh.notes) fmt::print("  note: {}\n", note);
+  Facts facts("implicit");
+  facts.say(
+      "{output}: {faces} faces, {creases} creases, {corners} corners, Euler characteristic {euler_characteristic}, "
+      "{components} components ({cells} cells, split {splits} times)\n",
+      {{"output", job.output},
+       {"faces", mesh.cage.num_faces()},
+       {"creases", mesh.cage.creases.size()},
+       {"corners", mesh.cage.corners.size()},
+       {"euler_characteristic", mesh.counts.euler},
+       {"components", mesh.counts.components},
+       {"cells", mesh.attempt.cells},
+       {"splits", mesh.attempt.splits}});
+  facts.say(
+      "  limit off the surface by {largest_distance} at most, {mean_distance} in the mean; normals by {largest_angle} "
+      "and {mean_angle} rad\n",
+      {three_digits("largest_distance", e.largest), three_digits("mean_distance", e.mean),
+       three_digits("largest_angle", e.largest_angle), three_digits("mean_angle", e.mean_angle)});
+  facts.say("  tolerance {tolerance}: {tolerance_met}\n",
+            {three_digits("tolerance", mesh.tolerance),
+             {"tolerance_met", mesh.met(), mesh.met() ? "met" : "not met; take more --cells or a larger --tolerance"}});
+  std::string notes;
+  for (const std::string& note : mesh.notes) notes += "  note: " + note + "\n";
+  facts.say("{notes}", {{"notes", mesh.notes, notes}});
+  facts.print(job.common);
   return mesh.met() ? 0 : 1;
 }
 
@@ -202,6 +220,7 @@ Command add_implicit(CLI::App& app) {
   command->add_option("-o,--output", job->output, "CAGE.obj with creases as tags; with --at OUT.csv")->required();
   command->add_option("--report", job->report, "Everything that was found, as data, .json");
   command->add_option("--picture", job->picture, "Control mesh and limit, .svg");
+  add_json(*command, job->common);
   add_run(*command, job->common);
   add_memory_limit(*command, job->memory_limit);
   std::string names;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "commands/searched.h"
+#include "support/facts.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/parts/parted_surface.h"
@@ -34,7 +35,7 @@ RayOptions ray_options(const IntersectOptions& options) {
 
 int run(const IntersectOptions& options) {
   const Source source = load_source(options.common, {"intersect", {SourceKind::mesh, SourceKind::patches}});
-  check_output_path(options.output, all_formats().writers({contents::rows}));
+  check_output_path(options.output, all_formats().writers({contents::rows, contents::arrays}));
   const RayOptions search = ray_options(options);
   Progress progress(options.common.quiet);
   progress.step("reading " + options.rays);
@@ -49,12 +50,17 @@ int run(const IntersectOptions& options) {
   progress.step("");
   const auto given_up = std::ranges::count(hits.kinds, HitKind::given_up);
   const int status = given_up > 0 ? 1 : 0;
-  if (options.common.quiet) return status;
   const auto touching = std::ranges::count(hits.kinds, HitKind::touching);
-  fmt::print("{}: {} hits of {} rays", options.output, std::ssize(hits.kinds) - given_up, rays.size());
-  if (touching > 0) fmt::print("; {} of them touch the surface, as near as numbers go (status touching)", touching);
-  fmt::print("\n");
-  if (given_up > 0)
+  Facts facts("intersect");
+  facts.say("{output}: {hits} hits of {rays} rays",
+            {{"output", options.output}, {"hits", std::ssize(hits.kinds) - given_up}, {"rays", rays.size()}});
+  if (touching > 0)
+    facts.say("; {touching} of them touch the surface, as near as numbers go (status touching)",
+              {{"touching", touching}});
+  if (given_up > 0) facts.add({{"given_up", given_up}});  // which the warning says
+  facts.say("\n");
+  facts.print(options.common);
+  if (given_up > 0 && !options.common.quiet)
     fmt::print(stderr,
                "sublimit: warning: {}: {} rays were given up: each has a row with the status given-up where the search "
                "stopped, and may have more hits from there on than are listed\n",
@@ -68,6 +74,7 @@ Command add_intersect(CLI::App& app) {
   auto* command = app.add_subcommand("intersect", "Find where rays meet the limit, or patches");
   auto options = std::make_shared<IntersectOptions>();
   add_mesh(*command, options->common, false);
+  add_json(*command, options->common);
   command->add_option("--rays", options->rays, "Rays: a .csv with the header ox,oy,oz,dx,dy,dz[,tmin,tmax]")
       ->required();
   command->add_flag("--all", options->all, "All hits of a ray, by rising t (default: the nearest)");

@@ -6,6 +6,7 @@
 #include "support/curves.h"
 #include "support/free_form.h"
 #include "support/normal_surfaces.h"
+#include "support/facts.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/stencils/files/level_files.h"
 #include "sublimit/stencils/formats/formats.h"
@@ -50,12 +51,17 @@ int limit_vertices(const LimitOptions& options) {
   carry_attributes(loaded, levels, out, &limit.position);
   if (!channel.empty()) add_channel(out, channel.back(), loaded.mesh.face_varying[0].name, limit_values);
   write_output(options.common, options.output, out, loaded.mesh, progress);
-  if (!options.common.quiet) {
-    const auto without = std::count(at_limit.status.begin(), at_limit.status.end(), LimitStatus::undefined_normal);
-    fmt::print("{}: {} limit points of level {}, {} types of neighbourhood, {} of {} vertex sides without a normal\n",
-               options.output, at_limit.position.rows(), options.levels, cache.num_types(), without,
-               at_limit.status.size());
-  }
+  Facts facts("limit");
+  facts.say(
+      "{output}: {points} limit points of level {level}, {types} types of neighbourhood, {without_normal} of {sides} "
+      "vertex sides without a normal\n",
+      {{"output", options.output},
+       {"points", at_limit.position.rows()},
+       {"level", options.levels},
+       {"types", cache.num_types()},
+       {"without_normal", std::count(at_limit.status.begin(), at_limit.status.end(), LimitStatus::undefined_normal)},
+       {"sides", at_limit.status.size()}});
+  facts.print(options.common);
   return 0;
 }
 
@@ -87,6 +93,7 @@ Command add_limit(CLI::App& app) {
   command->add_option("-o,--output", options->output, "OUT.obj or OUT.ply; faces that are holes are left out")
       ->required();
   add_closed(*command, options->common);
+  add_json(*command, options->common);
   command->footer(
       "Examples:\n"
       "  sublimit limit cage.obj -s catmull-clark -l 3 --normals -o surface.obj\n"

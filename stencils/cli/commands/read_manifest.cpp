@@ -11,6 +11,7 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/detail/rule_words.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/stencils/json/json_object.h"
 
@@ -30,7 +31,7 @@ JsonValue parse_line(const std::string& text, const std::string& path, std::int6
 
 /// The job of a line. Its paths are relative to the manifest's directory.
 BakeJob read_job(const std::string& text_of_line, const std::string& manifest, std::int64_t number, BakeJob job) {
-  const std::filesystem::path directory = std::filesystem::path(manifest).parent_path();
+  const std::filesystem::path directory = directory_of_names_in(manifest);
   const JsonValue root = parse_line(text_of_line, manifest, number);
   JsonObject line(root, fmt::format("{}:{}", manifest, number));
   const auto text = [&](const char* key, std::string& out) {

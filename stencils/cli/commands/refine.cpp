@@ -10,6 +10,7 @@
 #include "support/curves.h"
 #include "support/free_form.h"
 #include "support/normal_surfaces.h"
+#include "support/facts.h"
 
 namespace sublimit::cli {
 namespace {
@@ -56,6 +57,13 @@ int refine_mesh(const RefineOptions& options) {
     if (!options.no_tags) out.face_varying_interpolation = loaded.face_varying;
   }
   write_output(options.common, options.output, out, loaded.mesh, progress);
+  if (!options.common.json) return 0;
+  Facts facts("refine");  // there is nothing to say
+  facts.add({{"output", options.output},
+             {"level", options.levels},
+             {"vertices", out.num_vertices()},
+             {"faces", out.num_faces()}});
+  facts.print(options.common);
   return 0;
 }
 
@@ -66,7 +74,7 @@ int run(const RefineOptions& options) {
     case SourceKind::curves:
       return refine_curves({&options.common, options.levels, options.output, options.matrix});
     case SourceKind::normals:
-      return write_normal_surface({&source, options.levels, options.output, options.matrix});
+      return write_normal_surface({&source, options.levels, options.output, options.matrix, true, "refine"});
     case SourceKind::patches:
       if (options.no_tags) throw InvalidOption("--no-tags is for meshes; free-form surfaces have no tags");
       return refine_free_form(source, options.levels, options.output, options.matrix), 0;
@@ -88,6 +96,7 @@ Command add_refine(CLI::App& app) {
   command->add_option("--matrix", options->matrix, "OUT.mtx: the stencils, new points = matrix * control points");
   command->add_flag("--no-tags", options->no_tags, "Leave the tags out");
   add_closed(*command, options->common);
+  add_json(*command, options->common);
   command->footer(
       "Examples:\n"
       "  sublimit refine cage.obj -s catmull-clark -l 2 -o refined.obj\n"

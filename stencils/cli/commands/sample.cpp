@@ -11,6 +11,7 @@
 #include "support/free_form.h"
 #include "support/memory_limit.h"
 #include "support/normal_surfaces.h"
+#include "support/facts.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/error.h"
@@ -118,13 +119,22 @@ SampleSummary sample_source(const SampleJob& job, const LinearSource& surface, c
   return sample_faces(job, surface.faces(), write, reader, progress, given);
 }
 
-void print_summary(const SampleJob& job, const SampleSummary& summary, const std::string& of,
-                   const SampleReader* reader) {
-  if (job.common.quiet) return;
-  fmt::print("{}: {} samples", job.output, summary.num_samples);
-  if (summary.num_samples > 0) fmt::print(" ({}), {}", summary.text(), of);
-  if (reader && reader->num_clamped() > 0) fmt::print(", {} moved to the rim of their face", reader->num_clamped());
-  fmt::print("\n");
+/// @param of  what was sampled, a sentence about `source_facts`
+void print_summary(const SampleJob& job, const SampleSummary& summary, const char* of,
+                   std::initializer_list<Fact> source_facts, const SampleReader* reader) {
+  Facts facts("sample");
+  facts.say("{output}: {samples} samples", {{"output", job.output}, {"samples", summary.num_samples}});
+  nlohmann::ordered_json by_status = nlohmann::ordered_json::object();
+  for (size_t i = 0; i < summary.by_status.size(); ++i)
+    if (summary.by_status[i] > 0) by_status[name(LimitStatus(i))] = summary.by_status[i];
+  if (summary.num_samples > 0) {
+    facts.say(" ({status}), ", {{"status", by_status, summary.text()}});
+    facts.say(of, source_facts);
+  }
+  if (reader && reader->num_clamped() > 0)
+    facts.say(", {clamped} moved to the rim of their face", {{"clamped", reader->num_clamped()}});
+  facts.say("\n");
+  facts.print(job.common);
 }
 
 /// Curves or surfaces without a scheme. A file with both has its surfaces sampled, unless curves are asked for.
@@ -140,9 +150,8 @@ void sample_patches(const SampleJob& job, const Source& source, SampleReader* re
   }
   const SampleSummary summary =
       sample_source(job, found.patches, found.columns, reader, progress, own_source, own_reader ? &own : nullptr);
-  print_summary(job, summary,
-                fmt::format("{} faces of {} surfaces", found.patches.faces().size, found.patches.members().size()),
-                reader);
+  print_summary(job, summary, "{faces} faces of {surfaces} surfaces",
+                {{"faces", found.patches.faces().size}, {"surfaces", found.patches.members().size()}}, reader);
 }
 
 /// Surfaces through points and normals, which are not linear.
@@ -153,7 +162,7 @@ void sample_normal_surfaces(const SampleJob& job, const Source& source, SampleRe
   const std::shared_ptr<const PlacedSurface> surface = placed_together(std::move(parts));
   const auto write = [&](const auto&... what) { return write_samples(job.output, *surface, what...); };
   const SampleSummary summary = sample_faces(job, surface->faces(), write, reader, progress);
-  print_summary(job, summary, fmt::format("{} patches", surface->faces().size), reader);
+  print_summary(job, summary, "{patches} patches", {{"patches", surface->faces().size}}, reader);
 }
 
 void sample_mesh(const SampleJob& job, const Source&, SampleReader* reader, Progress& progress) {
@@ -165,7 +174,7 @@ void sample_mesh(const SampleJob& job, const Source&, SampleReader* reader, Prog
     const LimitMap surface(*loaded.scheme, loaded.mesh, loaded.rules, types);
     summary = sample_source(job, surface, loaded.mesh.positions, reader, progress);
   });
-  print_summary(job, summary, fmt::format("{} types of pieces", types->pieces().size()), reader);
+  print_summary(job, summary, "{types} types of pieces", {{"types", types->pieces().size()}}, reader);
 }
 
 /// Prints the way to the limit at one place of a mesh.
@@ -198,7 +207,7 @@ int run(const SampleOptions& options) {
   if (job.curves && !source.has_shapes())
     throw InvalidOption("--curves is for free-form files and recipes, without -s SCHEME");
   if (job.curves || source.has_curves_alone()) return sample_patch_curves(job, source);
-  check_output_path(job.output, all_formats().writers({contents::rows}));
+  check_output_path(job.output, all_formats().writers({contents::rows, contents::arrays}));
   std::unique_ptr<SampleReader> reader;  // a wrong header is told before a large mesh is read
   const bool own_places = source.kind == SourceKind::patches && !job.at.empty() && has_own_places(job.at, "patch");
   if (own_places && job.clamp) throw InvalidOption("--clamp is for places face,u,v; " + job.at + " has patch,u,v");
@@ -221,7 +230,7 @@ Command add_sample(CLI::App& app) {
   add_mesh(*command, job.common, false);
   command->add_option(
       "--at", job.at,
-      "Places from a CSV with the header face,u,v (curves segment,t); of free-form files and recipes also "
+      "Places from a CSV with the header face,u,v (curves segment,t), or an .npy with these columns; of free-form files and recipes also "
       "patch,u,v[,side] (curve,t[,side]), their own parameters, which derivatives are then per unit of");
   command->add_option("--grid", options->grid,
                       "N x N places a face, ends included, u fastest; triangles N (N + 1) / 2");
@@ -237,8 +246,10 @@ Command add_sample(CLI::App& app) {
                       "FACE,U,V: print the way to the limit at one place: pieces, blocks, polynomial or eigenvector, "
                       "weights; nothing is written");
   command->add_option("-o,--output", job.output,
-                      "OUT.csv: face,u,v,status,x,y,z[,derivatives],nx,ny,nz (required unless --explain)");
+                      "OUT.csv: face,u,v,status,x,y,z[,derivatives],nx,ny,nz, or OUT.npy with these fields (required "
+                      "unless --explain)");
   add_closed(*command, job.common);
+  add_json(*command, job.common);
   command->add_flag("--curves", job.curves, "Of files that have both: the curves (default: the surfaces)");
   add_memory_limit(*command, options->memory_limit);
   command->footer(
@@ -246,6 +257,7 @@ Command add_sample(CLI::App& app) {
       "  sublimit sample cage.obj -s catmull-clark --grid 5 -o points.csv\n"
       "  sublimit sample cage.obj -s loop --random 1000000 --seed 7 --derivatives 1 -o points.csv\n"
       "  sublimit sample cage.obj -s catmull-clark --at places.csv --derivatives 2 --curvature -o points.csv\n"
+      "  sublimit sample cage.obj -s loop --random 1000000 -o points.npy         numpy.load(\"points.npy\")[\"x\"]\n"
       "  sublimit sample cage.obj -s loop --explain 0,0.25,0.5                   how this point comes about\n"
       "  sublimit sample teapot.obj --grid 9 --derivatives 1 -o points.csv       free-form surfaces: without a scheme\n"
       "  sublimit sample sphere.json --grid 9 --derivatives 1 -o points.csv      recipes: see `sublimit construct --help`\n"
@@ -268,7 +280,10 @@ Command add_sample(CLI::App& app) {
       "  sublimit sample arcs.json --at places.csv --derivatives 1 -o curve.csv\n"
       "\nStatus: regular; extraordinary (a smooth corner of another valence: no derivatives, but a normal); unbounded-second\n"
       "(no second derivatives); crease (derivatives and normal of this face's side); hole; undefined-normal. What does not\n"
-      "exist is an empty field.");
+      "exist is an empty field.\n"
+      "\nOUT.npy is an array of records with the columns of OUT.csv as fields: face, segment, ... int64, status and side\n"
+      "texts, all others float64; what does not exist is not-a-number. IN.npy has records with the fields of IN.csv, any\n"
+      "others are left out, or rows x columns of numbers.");
   return [=] { return run(*options); };
 }
 

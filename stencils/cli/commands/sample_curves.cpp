@@ -12,7 +12,6 @@
 #include <random>
 
 #include "commands/sample.h"
-#include "sublimit/base/detail/atomic_file.h"
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
 #include "sublimit/curves/limit_curve.h"
@@ -21,8 +20,10 @@
 #include "sublimit/stencils/files/patch_places.h"
 #include "sublimit/stencils/formats/csv_rows.h"
 #include "sublimit/stencils/formats/formats.h"
+#include "sublimit/stencils/formats/row_file.h"
 #include "support/curves.h"
 #include "support/free_form.h"
+#include "support/facts.h"
 
 namespace sublimit::cli {
 namespace {
@@ -79,7 +80,6 @@ std::string coordinate(Index i, Index dimension) {
 /// @param own  of each batch, filled by `source`: places as own parameters; its sides are known before
 std::int64_t write(const SampleJob& job, Index dimension, const NextPlaces& source, const Evaluation& evaluate,
                    Progress& progress, const OwnCurvePlaces* own = nullptr) {
-  AtomicFile file(job.output);
   std::string text = (own ? own->header() : "segment,t") + ",status";
   const auto names = [&](const char* before, const char* behind) {
     for (Index i = 0; i < dimension; ++i) text += fmt::format(",{}{}{}", before, coordinate(i, dimension), behind);
@@ -88,7 +88,7 @@ std::int64_t write(const SampleJob& job, Index dimension, const NextPlaces& sour
   if (job.derivatives >= 1) names("", "t");
   if (job.derivatives >= 2) names("", "tt");
   if (dimension <= 3) names("n", "");
-  file.write(text + "\n");
+  RowFile file(job.output, text + "\n");
   std::int64_t written = 0;
   for (;;) {
     const std::vector<CurvePlace> batch = source(samples_per_batch);
@@ -125,7 +125,7 @@ std::int64_t write(const SampleJob& job, Index dimension, const NextPlaces& sour
     }
     file.write(text);
     written += static_cast<std::int64_t>(batch.size());
-    if (batch.size() < samples_per_batch) break;
+    if (batch.size() < samples_per_batch || file.is_dropped()) break;
     progress.note(fmt::format("sampling: {} done", written));
   }
   file.commit();
@@ -135,7 +135,7 @@ std::int64_t write(const SampleJob& job, Index dimension, const NextPlaces& sour
 void check_curve_samples(const SampleJob& job) {
   if (job.curvature)
     throw InvalidOption("--curvature is for surfaces; --derivatives 2 has what the curvature of a curve is made of");
-  check_output_path(job.output, all_formats().writers({contents::rows}));
+  check_output_path(job.output, all_formats().writers({contents::rows, contents::arrays}));
 }
 
 /// Places of --at, if it is given.
@@ -181,9 +181,13 @@ int sample_patch_curves(const SampleJob& job, const Source& source) {
       },
       progress, own_reader ? &own : nullptr);
   progress.step("");
-  if (!job.common.quiet)
-    fmt::print("{}: {} samples of {} segments of {} curves\n", job.output, written, found.curves.num_segments(),
-               found.curves.num_curves());
+  Facts facts("sample");
+  facts.say("{output}: {samples} samples of {segments} segments of {curves} curves\n",
+            {{"output", job.output},
+             {"samples", written},
+             {"segments", found.curves.num_segments()},
+             {"curves", found.curves.num_curves()}});
+  facts.print(job.common);
   return 0;
 }
 
@@ -217,7 +221,9 @@ int sample_curves(const SampleJob& job) {
         [&](std::span<const CurvePlace> batch) { return curve.evaluate(x, batch, order); }, progress);
   });
   progress.step("");
-  if (!job.common.quiet) fmt::print("{}: {} samples\n", job.output, written);
+  Facts facts("sample");
+  facts.say("{output}: {samples} samples\n", {{"output", job.output}, {"samples", written}});
+  facts.print(job.common);
   return 0;
 }
 

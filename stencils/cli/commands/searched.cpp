@@ -14,11 +14,13 @@ void with_searched_surface(const Source& source, Progress& progress,
   if (source.kind == SourceKind::patches) {
     limit_threads(common);
     const LoadedPatches loaded = load_patches(source);
+    progress.step("preparing the search");
     naming_mesh(common, [&] { search(PartedPatches(loaded.patches, loaded.columns)); });
     return;
   }
   const Loaded loaded = load(common, progress);
   check_mesh_memory(common.mesh, loaded.mesh);
+  progress.step("preparing the search");
   naming_mesh(common, [&] {
     const LimitMap surface(*loaded.scheme, loaded.mesh, loaded.rules);
     search(PartedLimit(surface, loaded.mesh.positions));

@@ -9,6 +9,8 @@
 #include "sublimit/base/error.h"
 #include "sublimit/cad/limit_model.h"
 #include "sublimit/integrals/limit_integrals.h"
+#include "sublimit/mesh/detail/attributes.h"
+#include "sublimit/stencils/formats/formats.h"
 
 namespace sublimit::cli {
 namespace {
@@ -47,6 +49,32 @@ nlohmann::ordered_json report_of(const StepJob& job, const LimitModel& model, co
   return json;
 }
 
+/// Names of faces: of groups, else of objects, else of materials where files have names.
+Mesh::FaceNames names_of(const Mesh& mesh, const std::string& output) {
+  Mesh::FaceNames names = mesh.face_names();
+  return names.of_face.empty() && all_formats().writes(output, contents::step) ? mesh.materials : names;
+}
+
+/// Values of faces that have colours. These are left out, with a note, if STEP cannot have them.
+std::vector<Mesh::Values> coloured(const Common& common, const std::string& output, const Mesh& mesh) {
+  const auto colours = find_colours(mesh.face_values);
+  if (!colours || !all_formats().writes(output, contents::step)) return {};
+  for (size_t k = 0; k < 3; ++k) {
+    const Mesh::Values& channel = mesh.face_values[size_t((*colours)[k])];
+    for (size_t f = 0; f < channel.values.size(); ++f)
+      if (const double number = colour_in_unit(channel, f); !(number >= 0 && number <= 1)) {
+        if (!common.quiet)
+          fmt::print(
+              stderr,
+              "sublimit: note: {}: colours of faces are left out: '{}' of face {} is not within 0 to 1 (0 to 255 "
+              "for bytes)\n",
+              output, channel.name, f);
+        return {};
+      }
+  }
+  return mesh.face_values;
+}
+
 int run(const StepJob& job) {
   const Source source = load_source(job.common, {"step", {SourceKind::mesh, SourceKind::normals, SourceKind::patches}});
   if (source.kind != SourceKind::mesh) return step_patches(job, source);
@@ -70,7 +98,10 @@ int run(const StepJob& job) {
     wanted.tolerance = tolerance;
     wanted.join_smoothly = job.join == "g1";
     wanted.pack = !job.no_packing;
-    wanted.face_names = loaded.mesh.face_names();
+    if (loaded.mesh.attributes != Attributes::drop) {
+      wanted.face_names = names_of(loaded.mesh, job.output);
+      wanted.face_values = coloured(job.common, job.output, loaded.mesh);
+    }
     wanted.progress = [&](const std::string& what) { progress.note(what); };
     model = limit_model(surface, control, wanted);
     if (model.boundary.faces.empty()) throw InvalidMesh("no faces to write");
@@ -80,18 +111,29 @@ int run(const StepJob& job) {
   const CadFile file = cad_file_of(job, entry, model.boundary, progress);
   write_step(job, file, report_of(job, model, file, tolerance, exact), progress);
   const int status = model.met && file.is_valid ? 0 : 1;
-  if (job.common.quiet) return status;
   const QuadMeasures& m = model.measures;
-  fmt::print("{}: {} solids, {} open shells; {} faces of {} patches, {} caps; {}\n", job.output, file.solids,
-             file.shells, model.boundary.faces.size(), model.quads, model.caps,
-             file.is_valid ? "valid" : "not valid by OpenCASCADE's check");
-  constexpr double degrees = 180 / std::numbers::pi;
-  fmt::print(
-      "  caps off the limit by {:.3g} at most; angles {:.3g} degrees at their borders, {:.3g} between them, {:.3g} "
-      "between exact faces\n",
-      model.deviation, m.cap_angle * degrees, m.between_caps * degrees, m.exact_angle * degrees);
-  tell_unit(job);
-  if (!model.met) fmt::print("  tolerance {:.3g}: not met\n", tolerance);
+  Facts facts("step");
+  facts.say(
+      "{output}: {solids} solids, {open_shells} open shells; {faces} faces of {patches} patches, {caps} caps; {valid}\n",
+      {{"output", job.output},
+       {"solids", file.solids},
+       {"open_shells", file.shells},
+       {"faces", model.boundary.faces.size()},
+       {"patches", model.quads},
+       {"caps", model.caps},
+       valid_fact(file)});
+  const auto degrees = [](std::string name, double angle) {
+    return three_digits(std::move(name), angle * 180 / std::numbers::pi);
+  };
+  facts.say(
+      "  caps off the limit by {deviation} at most; angles {degrees_at_caps} degrees at their borders, "
+      "{degrees_between_caps} between them, {degrees_between_exact_faces} between exact faces\n",
+      {three_digits("deviation", model.deviation), degrees("degrees_at_caps", m.cap_angle),
+       degrees("degrees_between_caps", m.between_caps), degrees("degrees_between_exact_faces", m.exact_angle)});
+  say_unit(facts, job);
+  facts.add({three_digits("tolerance", tolerance), {"tolerance_met", model.met, ""}});
+  if (!model.met) facts.say("  tolerance {tolerance}: not met\n", {three_digits("tolerance", tolerance)});
+  facts.print(job.common);
   return status;
 }
 
@@ -102,6 +144,7 @@ Command add_step(CLI::App& app) {
       app.add_subcommand("step", "Write limits for CAD: exact B-spline faces, solids where closed (STEP, BREP)");
   auto job = std::make_shared<StepJob>();
   add_mesh(*command, job->common, false);
+  add_json(*command, job->common);
   command->add_option("--tolerance", job->tolerance,
                       "Largest distance of caps around extraordinary vertices from the limit: in the mesh's unit, or "
                       "as 0.1% of its diagonal (default 0.001%). Of free-form surfaces: of sides that are one edge "
@@ -122,8 +165,9 @@ Command add_step(CLI::App& app) {
       "  sublimit step teapot.obj -o teapot.step\n"
       "\nRegular faces are exact, and packed into the largest B-splines that keep knots and smoothness; a triangle of loop is\n"
       "three biquartic patches. Around extraordinary vertices there are rings of exact patches, as many as leave a cap within\n"
-      "the tolerance. Creases and borders are edges. Names of groups (else objects) of an .obj are those of their faces in STEP\n"
-      "files; faces of different names stay apart. Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.\n"
+      "the tolerance. Creases and borders are edges. Names of groups (else objects, else materials) are those of their faces\n"
+      "in STEP files, which have the colours of faces, too (of a .ply, .off or .usda); faces that differ in them stay apart.\n"
+      "Schemes without polynomials (butterfly, kobbelt, sqrt3) are refused.\n"
       "\nFree-form surfaces of an .obj and recipes (.json, see `sublimit construct --help`), without -s: a face for each\n"
       "patch, its own B-spline, rational ones with weights, three faces for a Bezier triangle. Sides that are one\n"
       "curve in one parameter are one edge, closed sets of patches solids; names of groups, objects and recipes are those\n"

@@ -43,9 +43,14 @@ CadFile cad_file_of(const StepJob& job, CadFileEntry* entry, BoundaryModel& mode
   return file;
 }
 
-void tell_unit(const StepJob& job) {
+void say_unit(Facts& facts, const StepJob& job) {
   if (!all_formats().writes(job.output, contents::step)) return;
-  fmt::print("  lengths are in {}\n", job.unit.empty() ? "mm; --unit names another unit" : job.unit);
+  facts.say("  lengths are in {unit}\n", {{"unit", job.unit.empty() ? "mm" : job.unit,
+                                           job.unit.empty() ? "mm; --unit names another unit" : job.unit}});
+}
+
+Fact valid_fact(const CadFile& file) {
+  return {"valid", file.is_valid, file.is_valid ? "valid" : "not valid by OpenCASCADE's check"};
 }
 
 void write_step(const StepJob& job, const CadFile& file, const nlohmann::ordered_json& report, Progress& progress) {

@@ -3,6 +3,7 @@
 // Arguments of `sublimit step`, and its steps that models of meshes and of free-form surfaces share.
 #include <nlohmann/json.hpp>
 
+#include "support/facts.h"
 #include "support/source.h"
 #include "opencascade/entry.h"
 
@@ -25,8 +26,10 @@ CadFile cad_file_of(const StepJob& job, CadFileEntry* entry, BoundaryModel& mode
 /// Writes the CAD file, and the report if the job has a path for it.
 void write_step(const StepJob& job, const CadFile& file, const nlohmann::ordered_json& report, Progress& progress);
 
-/// Prints the unit of a STEP file.
-void tell_unit(const StepJob& job);
+/// Says the unit of a STEP file.
+void say_unit(Facts& facts, const StepJob& job);
+/// Returns whether OpenCASCADE found the shape valid.
+Fact valid_fact(const CadFile& file);
 
 /// Runs `sublimit step` for free-form surfaces, recipes, and triangles with normals.
 /// @return  the exit status

@@ -132,20 +132,34 @@ int step_patches(const StepJob& job, const Source& source) {
   const CadFile file = cad_file_of(job, entry, model.boundary, progress);
   write_step(job, file, report_of(job, model, file, patches.size()), progress);
   const int status = file.is_valid ? 0 : 1;
-  if (job.common.quiet) return status;
-  fmt::print("{}: {} solids, {} open shells; {} faces of {} patches; {}\n", job.output, file.solids, file.shells,
-             model.boundary.faces.size(), patches.size(), file.is_valid ? "valid" : "not valid by OpenCASCADE's check");
-  fmt::print(
-      "  {} edges shared by two faces, {} seams, {} sides that are a point, {} sides open; gap {:.3g} and angle "
-      "{:.3g} degrees at most\n",
-      model.shared, model.seams, model.points, model.open, model.gap, model.angle * 180 / std::numbers::pi);
-  tell_unit(job);
+  Facts facts("step");
+  facts.say("{output}: {solids} solids, {open_shells} open shells; {faces} faces of {patches} patches; {valid}\n",
+            {{"output", job.output},
+             {"solids", file.solids},
+             {"open_shells", file.shells},
+             {"faces", model.boundary.faces.size()},
+             {"patches", patches.size()},
+             valid_fact(file)});
+  facts.say(
+      "  {shared_edges} edges shared by two faces, {seam_edges} seams, {point_sides} sides that are a point, {open_sides} "
+      "sides open; gap {gap} and angle {degrees} degrees at most\n",
+      {{"shared_edges", model.shared},
+       {"seam_edges", model.seams},
+       {"point_sides", model.points},
+       {"open_sides", model.open},
+       three_digits("gap", model.gap),
+       three_digits("degrees", model.angle * 180 / std::numbers::pi)});
+  say_unit(facts, job);
   const std::int64_t apart = model.partial + model.reparametrised + model.non_manifold + model.unsuitable;
   if (apart > 0)
-    fmt::print(
-        "  not joined: {} sides of one shape in different parameters, {} pairs with parts of that kind, {} curves of three "
-        "sides or more, {} pairs that turn a front over\n",
-        model.reparametrised, model.partial, model.non_manifold, model.unsuitable);
+    facts.say(
+        "  not joined: {reparametrised_sides} sides of one shape in different parameters, {partial_sides} pairs with parts "
+        "of that kind, {non_manifold_sides} curves of three sides or more, {unsuitable_sides} pairs that turn a front over\n",
+        {{"reparametrised_sides", model.reparametrised},
+         {"partial_sides", model.partial},
+         {"non_manifold_sides", model.non_manifold},
+         {"unsuitable_sides", model.unsuitable}});
+  facts.print(job.common);
   return status;
 }
 

@@ -13,6 +13,7 @@
 #include "sublimit/stencils/formats/formats.h"
 #include "support/common.h"
 #include "support/input_files.h"
+#include "support/facts.h"
 
 namespace sublimit::cli {
 namespace {
@@ -38,27 +39,44 @@ std::string rows_in_words(const TableInfo& info) {
 }
 
 template <class Real>
-void describe(const BakedTable<Real>& table) {
+void describe(Facts& facts, const BakedTable<Real>& table) {
   const TableInfo& info = table.info;
   const PatternTable<Real>& t = table.table;
-  fmt::print("  {} points from {}: {}, {}{}{}\n", t.num_points(), t.num_control_points(),
-             info.scheme.empty() ? "unknown scheme" : info.scheme, rows_in_words(info),
-             t.quantities() == 1   ? ""
-             : t.quantities() == 3 ? ", first derivatives"
-                                   : ", first and second derivatives",
-             sizeof(Real) == 4 ? ", float" : ", double");
+  const int derivatives = t.quantities() == 1 ? 0 : t.quantities() == 3 ? 1 : 2;
+  const char* const with[] = {"", ", first derivatives", ", first and second derivatives"};
+  facts.say("  {points} points from {control_points}: {scheme}, {rows}{derivatives}, {precision}\n",
+            {{"points", t.num_points()},
+             {"control_points", t.num_control_points()},
+             {"scheme", info.scheme, info.scheme.empty() ? "unknown scheme" : info.scheme},
+             {"rows", rows_in_words(info)},
+             {"derivatives", derivatives, with[derivatives]},
+             {"precision", sizeof(Real) == 4 ? "float" : "double"}});
   std::string options;
   for (const auto& [name, value] : info.options) options += (options.empty() ? "" : ", ") + name + " " + value;
-  fmt::print("  {}{}by {}\n", options, options.empty() ? "" : "; ", info.tool.empty() ? "an unknown tool" : info.tool);
+  if (!options.empty()) options += "; ";
+  facts.say("  {options}by {tool}\n", {{"options", info.options, options},
+                                       {"tool", info.tool, info.tool.empty() ? "an unknown tool" : info.tool}});
   const auto& arrays = t.arrays();
-  fmt::print("  {} blocks, {} groups, {} patches, {} weights{}; {}\n", arrays.blocks.size(), arrays.groups.size(),
-             t.num_patches(), arrays.weights.size(), arrays.first ? ", a first step by rows" : "",
-             bytes_in_words(double(t.num_bytes())));
+  facts.say(
+      "  {blocks} blocks, {groups} groups, {patches} patches, {weights} weights{first_step_by_rows}; {memory_bytes}\n",
+      {{"blocks", arrays.blocks.size()},
+       {"groups", arrays.groups.size()},
+       {"patches", t.num_patches()},
+       {"weights", arrays.weights.size()},
+       {"first_step_by_rows", arrays.first.has_value(), arrays.first ? ", a first step by rows" : ""},
+       bytes_fact("memory_bytes", double(t.num_bytes()))});
 }
 
-int print_findings(const std::string& path, const std::vector<std::string>& findings) {
-  for (const std::string& finding : findings)
-    fmt::print("{}{}\n", finding.starts_with(path) ? "" : path + ": ", finding);
+/// Findings are printed even where nothing else is.
+int print_findings(const VerifyOptions& options, const std::vector<std::string>& findings) {
+  const std::string& path = options.table;
+  std::string lines;
+  for (const std::string& finding : findings) lines += (finding.starts_with(path) ? "" : path + ": ") + finding + "\n";
+  Facts facts("verify");
+  facts.say("{findings}", {{"file", path}, {"sound", false, ""}, {"findings", findings, lines}});
+  Common told = options.common;
+  told.quiet = false;
+  facts.print(told);
   return negative_verdict;
 }
 
@@ -90,8 +108,16 @@ int verify_report(const VerifyOptions& options) {
     throw FormatError(options.table + ": " + error.what());
   }
   progress.step("");
-  if (!found.findings.empty()) return print_findings(options.table, found.findings);
-  if (!options.common.quiet) fmt::print("{}: {}\n", options.table, verdicts_in_words(found));
+  if (!found.findings.empty()) return print_findings(options, found.findings);
+  Facts facts("verify");
+  facts.say("{file}: {verdict}\n", {{"file", options.table},
+                                    {"sound", true, ""},
+                                    {"kind", found.kind},
+                                    {"verdict", verdicts_in_words(found)},
+                                    {"verdicts", found.verdicts},
+                                    {"seen_again", found.seen_again},
+                                    {"decided", found.decided}});
+  facts.print(options.common);
   return 0;
 }
 
@@ -100,7 +126,7 @@ int verify(const VerifyOptions& options) {
   const FileKind kind = file_kind(options.table);
   const bool may_be = !kind.format || reads(*kind.format, contents::tables) || reads(*kind.format, contents::reports);
   if (kind.state == FileKind::State::directory || !may_be)
-    return print_findings(options.table, {fmt::format("it is {}, neither a table nor a report", name_of(kind))});
+    return print_findings(options, {fmt::format("it is {}, neither a table nor a report", name_of(kind))});
   if (all_formats().reads(options.table, contents::reports)) return verify_report(options);
   Progress progress(options.common.quiet);
   progress.step("verifying " + options.table);
@@ -111,11 +137,20 @@ int verify(const VerifyOptions& options) {
     found.findings.push_back(error.what());
   }
   progress.step("");
-  if (!found.findings.empty()) return print_findings(options.table, found.findings);
-  if (options.common.quiet) return 0;
-  fmt::print("{}: sound: layout, indices, finite weights, {} row sums, {} checksums, {} arrays, {}\n", options.table,
-             found.rows, found.checksums, found.arrays, bytes_in_words(double(found.bytes)));
-  std::visit([](const auto& table) { describe(table); }, load_table(options.table));
+  if (!found.findings.empty()) return print_findings(options, found.findings);
+  if (options.common.quiet && !options.common.json) return 0;
+  Facts facts("verify");
+  facts.say(
+      "{file}: sound: layout, indices, finite weights, {row_sums} row sums, {checksums} checksums, {arrays} arrays, "
+      "{file_bytes}\n",
+      {{"file", options.table},
+       {"sound", true, ""},
+       {"row_sums", found.rows},
+       {"checksums", found.checksums},
+       {"arrays", found.arrays},
+       bytes_fact("file_bytes", double(found.bytes))});
+  std::visit([&](const auto& table) { describe(facts, table); }, load_table(options.table));
+  facts.print(options.common);
   return 0;
 }
 
@@ -125,6 +160,7 @@ Command add_verify(CLI::App& app) {
   auto* command = app.add_subcommand("verify", "Check whether a table is sound, or a report proves what it says");
   auto options = std::make_shared<VerifyOptions>();
   command->add_option("TABLE", options->table, "What `sublimit bake` made, or `sublimit analyze --json`")->required();
+  add_json(*command, options->common);
   add_run(*command, options->common);
   command->footer(
       "Examples:\n"

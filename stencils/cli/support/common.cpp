@@ -7,12 +7,16 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include "sublimit/base/detail/followed_links.h"
 #include "sublimit/base/detail/format_number.h"
+#include "sublimit/base/detail/loop_progress.h"
 #include "sublimit/base/detail/memory.h"
 #include "sublimit/base/detail/rule_words.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/io/read_mesh.h"
@@ -78,6 +82,8 @@ void write_output(const Common& common, const std::string& path, const Mesh& out
 void tell_left_out(const Common& common, const std::string& path, const Mesh& out, const Mesh& control) {
   using enum MeshField;
   const FileFormat* const format = all_formats().find(path);
+  if (!common.quiet && format->changes)
+    for (const std::string& change : format->changes(out)) fmt::print(stderr, "sublimit: note: {}: {}\n", path, change);
   std::vector<MeshField> fields = left_out(*format, out);
   // Rules and comments are not in the file that was given: refinement adds them.
   std::erase_if(fields, [](MeshField field) { return field == rules || field == comments; });
@@ -138,7 +144,7 @@ Loaded load(const Common& common, Progress& progress) {
     apply_sidecar(mesh, *sidecar);
   Loaded loaded = mesh_job(request, std::move(mesh), common.mesh);
   if (common.quiet) return loaded;
-  std::vector<std::string> found = faults(loaded.mesh);
+  std::vector<std::string> found = faults(loaded.mesh, common.orient);
   progress.step("");
   list(loaded.mesh.warnings, "warning", 5);
   for (std::string& fault : found) fault = common.mesh + ": " + fault;
@@ -203,7 +209,22 @@ void naming_mesh(const Common& common, const std::function<void()>& body) {
   }
 }
 
+namespace {
+
+/// The same of a standard stream.
+void check_output_stream(const StandardFile& stream, const std::vector<std::string>& extensions) {
+  if (extensions.empty() || std::ranges::find(extensions, stream.extension) != extensions.end()) return;
+  std::vector<std::string> words;
+  for (const std::string& known : extensions) words.push_back(known.substr(1));
+  throw InvalidOption(fmt::format("cannot write {} {}; {} {} right", stream.device,
+                                  stream.extension.empty() ? "without --format" : "as " + stream.extension.substr(1),
+                                  listed(words, "and"), words.size() == 1 ? "is" : "are"));
+}
+
+}  // namespace
+
 void check_output_path(const std::string& path, const std::vector<std::string>& extensions) {
+  if (const auto stream = standard_file(path)) return check_output_stream(*stream, extensions);
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))  // whatever its name ends in
     throw IoError("cannot write " + path + ": it is a directory; name a file in it");
@@ -236,6 +257,7 @@ void check_not_sidecar(const std::string& option, const std::string& path, const
 
 void check_disk(const std::string& what, const std::string& path, double bytes, const std::string& advice) {
   std::error_code failed;
+  if (standard_file(path)) return;
   if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed)) return;
   const std::filesystem::path directory = directory_of(followed_links(path));
   const auto room = static_cast<double>(std::filesystem::space(directory, failed).available);
@@ -250,12 +272,23 @@ void make_output_directory(const std::string& path) {
   if (failed) throw IoError("cannot make the directory " + path + ": " + failed.message());
 }
 
-Progress::Progress(bool quiet) {
-  if (!quiet && ::isatty(STDERR_FILENO)) watcher_ = std::thread([this] { watch(); });
+namespace {
+
+LoopProgress loop_progress;  // of the process
+
+}  // namespace
+
+Progress::Progress(bool quiet) : is_terminal_(::isatty(STDERR_FILENO) != 0) {
+  const char* const wanted = std::getenv("SUBLIMIT_PROGRESS");
+  always_ = wanted && std::string_view(wanted) == "always";
+  if (quiet || !(is_terminal_ || always_)) return;
+  watch_loops(&loop_progress);
+  watcher_ = std::thread([this] { watch(); });
 }
 
 Progress::~Progress() {
   if (!watcher_.joinable()) return;
+  watch_loops(nullptr);
   {
     const std::lock_guard lock(mutex_);
     done_ = true;
@@ -271,6 +304,7 @@ void Progress::step(const std::string& what) {
   what_ = what;
   bytes_ = 0;
   start_ = std::chrono::steady_clock::now();
+  if (always_ && watcher_.joinable() && !what_.empty()) show(start_);
 }
 
 void Progress::note(const std::string& what) {
@@ -279,15 +313,33 @@ void Progress::note(const std::string& what) {
 }
 
 void Progress::watch() {
+  using namespace std::chrono_literals;
   std::unique_lock lock(mutex_);
-  while (!woken_.wait_for(lock, std::chrono::milliseconds(250), [this] { return done_; })) {
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
-    if (what_.empty() || time.count() < 1) continue;
-    const std::string size = bytes_ > 0 ? ": " + bytes_in_words(double(bytes_)) : "";
-    fmt::print(stderr, "\r\033[K{}{} ... {:.0f} s", what_, size, time.count());
-    std::fflush(stderr);
-    visible_ = true;
+  while (!woken_.wait_for(lock, 250ms, [this] { return done_; })) {
+    const auto now = std::chrono::steady_clock::now();
+    if (loops_ != loop_progress.loops) {
+      loops_ = loop_progress.loops;
+      loop_start_ = now;
+    }
+    if (what_.empty() || now - start_ < 1s) continue;
+    if (is_terminal_ || now - shown_ >= 10s) show(now);
   }
+}
+
+void Progress::show(std::chrono::steady_clock::time_point now) {
+  using namespace std::chrono_literals;
+  const std::chrono::duration<double> time = now - start_;
+  const std::int64_t done = loop_progress.done, blocks = loop_progress.blocks;
+  const bool is_long = loops_ == loop_progress.loops && done > 0 && done < blocks && now - loop_start_ >= 1s;
+  const std::string part = is_long ? fmt::format(": {:.0f} %", 100 * double(done) / double(blocks)) : "";
+  const std::string size = bytes_ > 0 ? ": " + bytes_in_words(double(bytes_)) : "";
+  if (is_terminal_)
+    fmt::print(stderr, "\r\033[K{}{}{} ... {:.0f} s", what_, part, size, time.count());
+  else
+    fmt::print(stderr, "sublimit: {}{}{} ... {:.0f} s\n", what_, part, size, time.count());
+  std::fflush(stderr);
+  visible_ = is_terminal_;
+  shown_ = now;
 }
 
 void Progress::clear() {

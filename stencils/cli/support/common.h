@@ -29,6 +29,7 @@ struct Common {
   std::vector<std::string> options;                         ///< name=value
   int threads = 0;                                          ///< 0: all
   bool quiet = false, strict = false;
+  bool json = false;  ///< facts as JSON
   bool triangulate = false, no_creases = false, orient = false, crease_smoothing_groups = false;
   std::optional<double> crease_angle;  ///< degrees
   std::string sidecar;                 ///< a path; empty: MESH.json if it is one; none: no sidecar
@@ -45,7 +46,11 @@ void write_output(const Common& common, const std::string& path, const Mesh& out
 /// @param control  the mesh that `out` was made of: it may have texture coordinates that `out` has not
 void tell_left_out(const Common& common, const std::string& path, const Mesh& out, const Mesh& control);
 
-/// Progress: a line on stderr while a step takes longer than a second, if stderr is a terminal.
+/// Progress: a line on stderr while a step takes longer than a second, if stderr is a terminal. It has the part of the
+/// parallel loop that runs if that takes longer than a second, too.
+///
+/// With SUBLIMIT_PROGRESS=always in the environment each step is told at once, and where stderr is no terminal, such as
+/// in the log of a batch job, in lines of their own: one when a step begins, then one every ten seconds.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -54,7 +59,7 @@ class Progress {
   void step(const std::string& what);
   /// Changes the description of the current step.
   void note(const std::string& what);
-  /// Returns a function for writers, which reports the number of bytes of this step written so far.
+  /// Returns a function for writers, or readers, which reports the number of bytes of this step done so far.
   std::function<void(std::int64_t)> bytes_written() {
     return [this](std::int64_t bytes) { bytes_ = bytes; };
   }
@@ -62,12 +67,16 @@ class Progress {
  private:
   void watch();
   void clear();
+  void show(std::chrono::steady_clock::time_point now);
 
   std::mutex mutex_;
   std::condition_variable woken_;
   std::string what_;
   std::chrono::steady_clock::time_point start_;
   std::atomic<std::int64_t> bytes_ = 0;  // bytes that this step has written
+  std::int64_t loops_ = 0;               // number of the parallel loop that runs
+  std::chrono::steady_clock::time_point loop_start_, shown_;
+  bool is_terminal_ = false, always_ = false;
   bool done_ = false, visible_ = false;
   std::thread watcher_;  // runs only if the line may be shown
 };
@@ -141,6 +150,7 @@ Command add_sample(CLI::App& app);
 Command add_closest(CLI::App& app);
 Command add_intersect(CLI::App& app);
 Command add_tessellate(CLI::App& app);
+Command add_flatten(CLI::App& app);
 Command add_step(CLI::App& app);
 Command add_construct(CLI::App& app);
 Command add_implicit(CLI::App& app);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/curves.h"
+#include "support/facts.h"
 
 #include <fmt/core.h>
 
@@ -110,6 +111,15 @@ Index unit_tangents(const CurveLevel& level, const std::vector<CurvePlace>& plac
 
 }  // namespace
 
+void tell_limit_points(const CurveJob& job, Index points, Index without) {
+  Facts facts("limit");
+  facts.say("{output}: {points} limit points of level {level}",
+            {{"output", job.output}, {"points", points}, {"level", job.levels}});
+  if (job.tangents) facts.say(", {without_tangent} without a tangent", {{"without_tangent", without}});
+  facts.say("\n");
+  facts.print(*job.common);
+}
+
 void refuse_polygon(const Common& common) {
   bool polygon = all_formats().reads(common.mesh, contents::polygons);
   if (polygon && all_formats().reads(common.mesh, contents::meshes)) {
@@ -166,9 +176,7 @@ int limit_curves(const CurveJob& job) {
   progress.step("writing " + job.output);
   write_polygon(job.output, result);
   progress.step("");
-  if (!job.common->quiet)
-    fmt::print("{}: {} limit points of level {}{}\n", job.output, result.num_points(), job.levels,
-               job.tangents ? fmt::format(", {} without a tangent", without) : "");
+  tell_limit_points(job, result.num_points(), without);
   return 0;
 }
 

@@ -14,6 +14,9 @@ struct CurveJob {
   bool tangents = false;       ///< write tangents of the limit as columns
 };
 
+/// Prints how many points of a limit were written, and how many of them have no tangent.
+void tell_limit_points(const CurveJob& job, Index points, Index without);
+
 /// Adds --closed to a subcommand that also takes curves.
 void add_closed(CLI::App& command, Common& common);
 

@@ -67,9 +67,7 @@ int limit_geometric(const CurveJob& job, const GeometricCurveScheme& scheme) {
   progress.step("writing " + job.output);
   write_polygon(job.output, result);
   progress.step("");
-  if (!job.common->quiet)
-    fmt::print("{}: {} limit points of level {}{}\n", job.output, result.num_points(), job.levels,
-               job.tangents ? ", 0 without a tangent" : "");
+  tell_limit_points(job, result.num_points(), 0);
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <vector>
 
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 
 namespace sublimit::cli {
@@ -44,13 +45,14 @@ const std::vector<Role>& roles() {
       {"sublimit-mpi", "MESH", "a control mesh, {}", {mesh_parts}},
       // The readers say more of a polygon, a recipe or nothing in the place of a mesh.
       {nullptr, "MESH", "a control mesh, {}", {meshes}, {rows, recipes}, {empty}},
-      {nullptr, "--at", "places, {}", {rows}},
-      {nullptr, "--rays", "rays, {}", {rows}},
-      {nullptr, "--rates", "rates of edges, {}", {rows}},
-      {nullptr, "--targets", "targets, {}", {rows}},
-      {nullptr, "--pin", "vertices, as numbers or in a {}", {rows}},
+      {nullptr, "--sidecar", "tags, {}", {recipes}},
+      {nullptr, "--at", "places, {}", {rows, arrays}},
+      {nullptr, "--rays", "rays, {}", {rows, arrays}},
+      {nullptr, "--rates", "rates of edges, {}", {rows, arrays}},
+      {nullptr, "--targets", "targets, {}", {rows, arrays}},
+      {nullptr, "--pin", "vertices, as numbers or in a {}", {rows, arrays}},
       {nullptr, "--points", "points, {}", {rows, arrays, meshes}},
-      {nullptr, "--cloud", "points, {}", {rows, meshes}},
+      {nullptr, "--cloud", "points, {}", {rows, arrays, meshes}},
       {nullptr, "--tessellation", "triangles of `sublimit tessellate`, {}", {vertex_values}},
       {nullptr, "--manifest", "jobs, {}", {jobs}, {}, {empty}},  // there may be none
       {nullptr, "--dictionary", "a dictionary that `bake` keeps, or a directory of them", {tables}, {}, {directory}},
@@ -110,10 +112,11 @@ const Role* role_of(const CLI::App& command, const CLI::Option& option) {
 
 FileKind file_kind(const std::string& path) {
   std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  const std::filesystem::path opened = opened_path(path);
+  const std::filesystem::file_status status = std::filesystem::status(opened, ignored);
   if (std::filesystem::is_directory(status)) return {directory};
   if (!std::filesystem::is_regular_file(status)) return {};
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(opened, std::ios::binary);
   if (!file.is_open()) return {};  // its reader says why
   std::string text(4096, '\0');
   file.read(text.data(), std::ssize(text));
@@ -150,6 +153,25 @@ std::vector<std::string> input_extensions(const CLI::App& command, const CLI::Op
   std::vector<std::string> extensions = all_formats().readers(all);
   for (std::string& extension : extensions) extension.erase(0, 1);
   return extensions;
+}
+
+std::optional<std::string> input_extension(const CLI::App& command, const CLI::Option& option,
+                                           std::string_view first_bytes) {
+  const Role* const role = role_of(command, option);
+  if (!role) return std::nullopt;
+  const FileStart start(first_bytes);
+  for (const bool taken : {true, false})
+    for (const FileFormat& row : all_formats().rows()) {
+      const auto reads_it = [&](Content content) { return reads(row, content); };
+      if (!first_bytes.empty() && row.begins && row.begins(start) &&
+          (!taken || std::ranges::any_of(role->wanted, reads_it) || std::ranges::any_of(role->also, reads_it)))
+        return std::string(row.extensions.front());
+    }
+  if (std::ranges::find(role->other, known) != role->other.end()) return "";
+  const std::vector<std::string> all = all_formats().readers(role->wanted);
+  const bool may_be_empty = std::ranges::find(role->other, empty) != role->other.end();
+  if (all.size() == 1 && (!first_bytes.empty() || may_be_empty)) return all.front();
+  return std::nullopt;
 }
 
 void check_input_files(const CLI::App& command) {

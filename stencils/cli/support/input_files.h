@@ -3,7 +3,9 @@
 // Recognising input files by their first bytes, and checking that each is in the right place on a command line.
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sublimit/stencils/formats/formats.h"
@@ -34,6 +36,12 @@ std::string input_meaning(const CLI::App& command, const CLI::Option& option);
 
 /// Extensions of the files that an argument or option takes, without the dot; empty for any, or if it names none.
 std::vector<std::string> input_extensions(const CLI::App& command, const CLI::Option& option);
+
+/// Returns the extension of a format that an argument or option takes and whose files begin with these bytes; else of
+/// any format whose files begin so; else the one extension that it takes, if it takes one alone, and "" if it takes any
+/// file. Absent if none of these is there.
+std::optional<std::string> input_extension(const CLI::App& command, const CLI::Option& option,
+                                           std::string_view first_bytes);
 
 /// Checks that files have the kinds that a subcommand expects: finds a table in the place of a mesh, a mesh in
 /// the place of a CSV, swapped arguments, directories, empty files. Arguments and options are recognised by

@@ -37,6 +37,7 @@ constexpr auto option_words = std::to_array<OptionWords>({
     {"log", "LOG.jsonl", output, out_file},
     {"export", "DIR", output, directory},
     {"gallery", "DIR", output, directory},
+    {"format", "FORMAT", output, text},
     {"no-tags", "", output, none},
     {"unit", "", output, words},
     {"scheme", "SCHEME", rules, scheme},
@@ -67,6 +68,7 @@ constexpr auto option_words = std::to_array<OptionWords>({
     {"radius", "R", "", text},
     {"most-parts", "N", "", text},
     {"points", "IN", "", in_file},
+    {"frames", "A-B", "", text},
     {"rays", "IN.csv", "", in_file},
     {"rates", "RATES.csv", "", in_file},
     {"targets", "IN.csv", "", in_file},
@@ -291,6 +293,16 @@ std::string joined(const std::vector<std::string>& parts, const char* between) {
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
   return text;
+}
+
+bool writes_file(const CLI::Option& option) {
+  const OptionWords* const known = words_of(option);
+  return known && known->kind == out_file && option.get_items_expected_max() != 0;
+}
+
+bool takes_directory(const CLI::Option& option) {
+  const OptionWords* const known = words_of(option);
+  return (known && known->kind == directory) || option.check_name("--dictionary");
 }
 
 VerbPage verb_page(const CLI::App& command) {

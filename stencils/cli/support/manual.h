@@ -68,6 +68,11 @@ std::string joined(const std::vector<std::string>& parts, const char* between = 
 VerbPage verb_page(const CLI::App& command);
 ProgramPage program_page(const CLI::App& app);
 
+/// Returns true if an option names a file to write.
+bool writes_file(const CLI::Option& option);
+/// Returns true if an option or argument names a directory.
+bool takes_directory(const CLI::Option& option);
+
 /// Formats `--help` from these pages.
 class HelpFormatter : public CLI::Formatter {
  public:

@@ -10,7 +10,9 @@
 
 #include "support/free_form.h"
 #include "support/recipes.h"
+#include "support/facts.h"
 #include "sublimit/base/detail/format_number.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/io/detail/obj_normals.h"
 #include "sublimit/io/write_mesh.h"
@@ -104,7 +106,7 @@ NormalSurface load_normal_surface(const Common& common, const Recipe& recipe, Pr
     tell_notes(result, {});
     return result;
   }
-  own.mesh = (std::filesystem::path(common.mesh).parent_path() / triangles.mesh).string();
+  own.mesh = (directory_of_names_in(common.mesh) / triangles.mesh).string();
   if (triangles.estimated) own.options = {"normals=estimated"};
   try {
     return of_mesh(own, progress);
@@ -158,8 +160,10 @@ int write_normal_surface(const NormalJob& job) {
   if (job.normals) out.normals = std::move(level.normals);
   write_mesh(job.output, out, progress.bytes_written());
   progress.step("");
-  if (!common.quiet)
-    fmt::print("{}: {} points of level {}, {} patches\n", job.output, out.positions.rows(), job.levels, patches);
+  Facts facts(job.verb);
+  facts.say("{output}: {points} points of level {level}, {patches} patches\n",
+            {{"output", job.output}, {"points", out.positions.rows()}, {"level", job.levels}, {"patches", patches}});
+  facts.print(common);
   return 0;
 }
 

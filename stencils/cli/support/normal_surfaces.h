@@ -31,6 +31,7 @@ struct NormalJob {
   int levels = 0;
   std::string output, matrix;  ///< matrix may be empty
   bool normals = true;         ///< write them
+  const char* verb = "limit";  ///< for facts
 };
 int write_normal_surface(const NormalJob& job);
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "sublimit/base/detail/memory.h"
+#include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
 #include "sublimit/curves/schemes/curve_schemes.h"
 #include "sublimit/geometric/geometric_schemes.h"
@@ -64,10 +65,11 @@ bool has_free_form(const std::string& path) {
   if (!all_formats().reads(path, contents::free_form)) return false;
   // A pipe can be read only once: the reader of meshes does that.
   std::error_code ignored;  // of a name too long, say: its reader tells
-  if (const auto status = std::filesystem::status(path, ignored);
+  const std::filesystem::path opened = opened_path(path);
+  if (const auto status = std::filesystem::status(opened, ignored);
       std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return false;
-  if (const auto size = static_cast<double>(std::filesystem::file_size(path, ignored)); !ignored)
+  if (const auto size = static_cast<double>(std::filesystem::file_size(opened, ignored)); !ignored)
     check_memory(path + ": " + bytes_in_words(size) + " of text", size, "put it into several files");
   const std::string text = read_inflated(path);
   for (const std::string_view keyword : {"curv", "surf"})
@@ -97,7 +99,7 @@ void load_without_scheme(Source& source, const Takes& takes) {
   if (all_formats().reads(path, contents::recipes)) {
     source.recipes = read_recipes(path);
     source.kind = kind_of_recipes(*source.recipes);
-  } else if (std::error_code ignored; takes.scheme_optional && !std::filesystem::exists(path, ignored)) {
+  } else if (std::error_code ignored; takes.scheme_optional && !std::filesystem::exists(opened_path(path), ignored)) {
     return;  // the reader of meshes tells
   } else if (has_free_form(path)) {
     source.shapes = read_free_form(path);

@@ -19,10 +19,11 @@ namespace {
 /// A standard descriptor, and what became of it.
 struct Stream {
   int descriptor;
-  bool closed = false;  ///< by its reader
-  int error = 0;        ///< errno of the first write that failed for another reason
+  bool missing = false;  ///< closed before the program began
+  bool closed = false;   ///< by its reader
+  int error = 0;         ///< errno of the first write that failed for another reason
 };
-Stream standard_output{STDOUT_FILENO}, standard_error{STDERR_FILENO};
+Stream standard_input{STDIN_FILENO}, standard_output{STDOUT_FILENO}, standard_error{STDERR_FILENO};
 
 /// Writes all, or forgets it: code that prints need not ask whether somebody still reads.
 ssize_t write_or_drop(void* cookie, const char* data, size_t size) {
@@ -53,11 +54,25 @@ std::FILE* stream_to(Stream& stream, int buffering) {
 
 void prepare_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);
-  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(descriptor, F_GETFD) < 0)  // the lowest that is free is the one that `open` gives
-      (void)!::open("/dev/null", descriptor == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+  for (Stream* stream : {&standard_input, &standard_output, &standard_error}) {
+    stream->missing = ::fcntl(stream->descriptor, F_GETFD) < 0;
+    if (stream->missing)  // the lowest that is free is the one that `open` gives
+      (void)!::open("/dev/null", stream == &standard_input ? O_RDONLY : O_WRONLY);
+  }
   if (std::FILE* file = stream_to(standard_output, _IOFBF)) stdout = file;
   if (std::FILE* file = stream_to(standard_error, _IOLBF)) stderr = file;
+}
+
+void print_on_stderr() {
+  std::fflush(stdout);
+  stdout = stderr;
+}
+
+void check_standard_stream(int descriptor) {
+  if (descriptor == STDIN_FILENO && standard_input.missing)
+    throw IoError("standard input is closed; give a file, or a pipe");
+  if (descriptor == STDOUT_FILENO && standard_output.missing)
+    throw IoError("standard output is closed; give a file, or a pipe");
 }
 
 int finish_standard_streams(const char* program, int status) {

@@ -314,7 +314,7 @@ TEST(CliAnalyzeRecipes, RefuseWhatTheyCannotUse) {
   const AnalyzedRecipe file(square_join("0"));
   expect_failure(file.analyzed({"--tolerance", "g3=1"}), 2, {"g3=1"});
   expect_failure(file.analyzed({"--valence", "3-5"}), 2, {"--valence is for schemes", "free-form shapes"});
-  expect_failure(file.analyzed({"--json", file.path("r.json")}), 2, {"r.json", "holds the recipes"});
+  expect_failure(file.analyzed({"--json", file.path("r.json")}), 2, {"r.json", "this file is MESH, which is read"});
   expect_failure(file.analyzed({}, "none.json"), 3, {"none.json"});
   expect_failure(AnalyzedRecipe("{").analyzed(), 3, {"r.json:1"});
   expect_failure(AnalyzedRecipe(square_join("0", "1", "0")).analyzed(), 3,

@@ -31,6 +31,7 @@ class Samples {
     directory_.write("places.csv", "face,u,v\n0,0.5,0.5\n");
     directory_.write("field.json", R"({"kind": "implicit", "field": {"sphere": 1}})");
     directory_.write("nothing.obj", "");
+    directory_.write("cells.vtu", "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\"/>\n");
     directory_.write("picture.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>\n");
     std::filesystem::create_directory(path("folder"));
     num_files_ = directory_.num_files();
@@ -46,6 +47,7 @@ class Samples {
                                                  {"points.npy", " is a NumPy array"},
                                                  {"places.csv", " is a CSV file"},
                                                  {"field.json", " is a JSON file"},
+                                                 {"cells.vtu", " is a VTK file"},
                                                  {"picture.svg", " is an XML or HTML file"},
                                                  {"nothing.obj", ": empty; "},
                                                  {"folder", ": it is a directory; name a file in it"}};
@@ -76,16 +78,18 @@ TEST(CliInputFiles, EachIsKnownInTheWrongPlace) {
       {with_scheme({"refine", "?", "-l", "1", "-o", obj}), "MESH", shapes},
       {with_scheme({"limit", "?", "-o", obj}), "MESH", shapes},
       {with_scheme({"sample", "?", "--grid", "2", "-o", csv}), "MESH", shapes},
-      {with_scheme({"sample", mesh, "--at", "?", "-o", csv}), "--at", {"places.csv"}},
+      {with_scheme({"sample", mesh, "--at", "?", "-o", csv}), "--at", {"places.csv", "points.npy"}},
       {with_scheme({"closest", mesh, "--points", "?", "-o", csv}),
        "--points",
        {"places.csv", "points.npy", "mesh.obj", "mesh.ply"}},
-      {with_scheme({"intersect", mesh, "--rays", "?", "-o", csv}), "--rays", {"places.csv"}},
+      {with_scheme({"intersect", mesh, "--rays", "?", "-o", csv}), "--rays", {"places.csv", "points.npy"}},
       {with_scheme({"tessellate", "?", "--chord", "1%", "-o", obj}), "MESH", shapes},
-      {with_scheme({"tessellate", mesh, "--rates", "?", "-o", obj}), "--rates", {"places.csv"}},
+      {with_scheme({"tessellate", mesh, "--rates", "?", "-o", obj}), "--rates", {"places.csv", "points.npy"}},
       {with_scheme({"step", "?", "-o", samples.path("out.step")}), "MESH", shapes},
       {with_scheme({"bake", "?", "-l", "1", "-o", samples.path("out.safetensors")}), "MESH", shapes},
-      {with_scheme({"bake", mesh, "--at", "?", "-o", samples.path("out.safetensors")}), "--at", {"places.csv"}},
+      {with_scheme({"bake", mesh, "--at", "?", "-o", samples.path("out.safetensors")}),
+       "--at",
+       {"places.csv", "points.npy"}},
       {with_scheme({"bake", mesh, "--tessellation", "?", "-o", samples.path("out.safetensors")}),
        "--tessellation",
        {"mesh.ply"}},
@@ -99,8 +103,10 @@ TEST(CliInputFiles, EachIsKnownInTheWrongPlace) {
       {{"apply", table, "?", "-o", obj}, "POINTS", {"mesh.obj", "mesh.ply", "places.csv", "points.npy", "field.json"}},
       {{"export", "?", "-o", samples.path("out.npz")}, "TABLE", {"table.safetensors"}},
       {with_scheme({"analyze", "?"}), "MESH", shapes},
-      {with_scheme({"fit", mesh, "--targets", "?", "-o", obj}), "--targets", {"places.csv"}},
-      {with_scheme({"fit", mesh, "--cloud", "?", "-o", obj}), "--cloud", {"places.csv", "mesh.obj", "mesh.ply"}},
+      {with_scheme({"fit", mesh, "--targets", "?", "-o", obj}), "--targets", {"places.csv", "points.npy"}},
+      {with_scheme({"fit", mesh, "--cloud", "?", "-o", obj}),
+       "--cloud",
+       {"places.csv", "points.npy", "mesh.obj", "mesh.ply"}},
   };
   size_t turn = 0;  // a third of the kinds for each place, and each kind in a third of the places
   for (const Line& line : lines)
