@@ -274,3 +274,17 @@ def test_sidecars(tmp_path: pathlib.Path) -> None:
             sublimit.read(path, sidecar=beside)
     with pytest.raises(sublimit.IoError, match="missing.json"):
         sublimit.read(path, sidecar=tmp_path / "missing.json")
+
+
+@pytest.mark.parametrize("name", ["grid.glb", "grid.gltf"])
+def test_gltf_keeps_faces_colours_and_materials(name: str, grid: sublimit.Mesh, tmp_path: pathlib.Path) -> None:
+    """The file groups faces by material: those of one material are in the order that they had."""
+    grid.write(tmp_path / name)
+    again = sublimit.read(tmp_path / name)
+    assert np.array_equal(again.points, grid.points)
+    named = [{tuple(sorted(face)): material for face, material in zip(mesh.faces, mesh.materials)} for mesh in (again, grid)]
+    assert named[0] == named[1] and set(named[0].values()) == {"m0", "m1", "m2"}
+    for colour in COLOURS:
+        assert np.array_equal(again.vertex_values[colour], np.asarray(grid.vertex_values[colour], np.float32))
+    fine, expected = sublimit.refine(again, "catmull-clark"), sublimit.refine(grid, "catmull-clark")
+    assert len(fine.faces) == len(expected.faces) == 36

@@ -85,6 +85,7 @@ FileFormat gltf_row(FileFormat kind) {
   kind.texture_columns = 2;
   kind.needs_normals = true;
   kind.read_mesh = read_gltf;
+  kind.changes = changes_in_gltf;
   kind.vertex_order = gltf_vertex_order;
   return kind;
 }

@@ -19,6 +19,7 @@
 #include "sublimit/io/detail/gltf_accessor.h"
 #include "sublimit/io/detail/gltf_layout.h"
 #include "sublimit/io/detail/gltf_mesh.h"
+#include "sublimit/io/detail/text_scanner.h"
 #include "sublimit/io/write_mesh.h"
 #include "sublimit/mesh/detail/attributes.h"
 
@@ -66,29 +67,30 @@ GltfType file_type(ValueType type) {
   }
 }
 
-/// Appends a number in a type, the nearest that it has.
-void append_as(std::string& out, GltfType type, double value) {
-  const auto whole = [&](double least, double most, int bytes) {
-    append_low_bytes(
-        out, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(std::nearbyint(value), least, most))),
-        bytes);
-  };
+int size_of(GltfType type) {
+  return type == GltfType::int8 || type == GltfType::uint8 ? 1 : type == GltfType::float32 ? 4 : 2;
+}
+
+/// Returns the whole number of a type that is nearest.
+double nearest_in(GltfType type, double value) {
+  const auto within = [&](double least, double most) { return std::clamp(std::nearbyint(value), least, most); };
   switch (type) {
     case GltfType::int8:
-      return whole(-128, 127, 1);
+      return within(-128, 127);
     case GltfType::uint8:
-      return whole(0, 255, 1);
+      return within(0, 255);
     case GltfType::int16:
-      return whole(-32768, 32767, 2);
-    case GltfType::uint16:
-      return whole(0, 65535, 2);
+      return within(-32768, 32767);
     default:
-      return append_float(out, value);
+      return within(0, 65535);
   }
 }
 
-int size_of(GltfType type) {
-  return type == GltfType::int8 || type == GltfType::uint8 ? 1 : type == GltfType::float32 ? 4 : 2;
+/// Appends a number in a type, the nearest that it has.
+void append_as(std::string& out, GltfType type, double value) {
+  if (type == GltfType::float32) return append_float(out, value);
+  const auto number = static_cast<std::int32_t>(nearest_in(type, value));
+  append_low_bytes(out, static_cast<std::uint32_t>(number), size_of(type));
 }
 
 void check_gltf(const Mesh& mesh, const std::string& name) {
@@ -329,6 +331,37 @@ void emit_glb(const GltfOutput& output, const std::string& name, RowWriter out) 
 }
 
 }  // namespace
+
+std::vector<std::string> changes_in_gltf(const Mesh& mesh) {
+  std::vector<std::string> changes;
+  const auto colours = find_colours(mesh.vertex_values);
+  std::int64_t cut = 0;
+  for (std::size_t i = 0; i < mesh.vertex_values.size(); ++i) {
+    const Mesh::Values& one = mesh.vertex_values[i];
+    if (colours && std::ranges::find(*colours, static_cast<Index>(i)) != colours->end()) {
+      for (std::size_t v = 0; v < one.values.size(); ++v) {
+        const double colour = colour_in_unit(one, v);
+        cut += !(colour >= 0 && colour <= 1);
+      }
+      continue;
+    }
+    const GltfType type = file_type(one.type);
+    const bool is_float = type == GltfType::float32,
+               is_whole = one.type != ValueType::float32 && one.type != ValueType::float64;
+    const auto changed = std::ranges::count_if(one.values, [&](double x) {
+      if (is_float) return is_whole && double{static_cast<float>(x)} != x;
+      return std::nearbyint(x) != nearest_in(type, x);
+    });
+    if (changed > 0)
+      changes.push_back("values " + in_quotes(one.name) + " beyond " +
+                        (is_float ? "the whole numbers that floats have, " : "their type, ") + format_number(changed) +
+                        " of them, are " + (is_float ? "rounded" : "cut off"));
+  }
+  if (cut > 0)
+    changes.push_back("numbers of colours of vertices beyond 0 to 1, " + format_number(cut) +
+                      " of them, are cut off; a .ply of type float or double keeps them");
+  return changes;
+}
 
 std::string format_glb(const Mesh& mesh) {
   check_gltf(mesh, "glTF");

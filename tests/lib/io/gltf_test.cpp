@@ -172,17 +172,17 @@ TEST(Gltf, PrimitivesOfAMeshShareItsVerticesAndHaveMaterials) {
   parts.indices({0, 2, 3});
   parts.positions({0, 0, 0, 0, 1, 0, 0, 0, 1});  // another accessor, two of its vertices at known places
   const std::string rest =
-      R"("nodes":[{"mesh":0}],"materials":[{"name":"red"},{},{"name":"a#b\\","emissiveFactor":[1,0,0]}],)"
+      R"("nodes":[{"mesh":0}],"materials":[{"name":"red"},{},{"name":"a#b #\u0007\\","emissiveFactor":[1,0,0]}],)"
       R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":2},)"
       R"({"attributes":{"POSITION":0},"indices":2},{"attributes":{"POSITION":3},"material":1}]}])";
   const Mesh mesh = parse_gltf(parts.glb(rest), "a.glb");
   EXPECT_EQ(mesh.num_vertices(), 5);
   EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2, 0, 2, 3, 0, 3, 4}));
-  EXPECT_EQ(mesh.materials.names, (Words{"a_b_", "material_1"}));
+  EXPECT_EQ(mesh.materials.names, (Words{"a#b ___", "material_1"}));
   EXPECT_EQ(mesh.materials.of_face, (Ids{0, -1, 1}));
   EXPECT_EQ(mesh.notes, (Words{"a.glb: welded 7 vertices of the file to 5",
                                "a.glb: of materials the names are kept, not their colours and textures",
-                               "a.glb: line ends, # and a last \\ in names are replaced by _"}));
+                               "a.glb: line ends, # behind blanks and a last \\ in names are replaced by _"}));
 }
 
 // A seam: the vertices 0 and 2 of the square have two texture coordinates. t is counted from the lower edge.
@@ -396,6 +396,13 @@ TEST(Gltf, WrongNumbersAreErrorsThatNameThePlace) {
          "accessors[0].bufferView: 7 is out of range; the file has 2 buffer views");
   expect("\"bufferView\":0,", "", "accessors[0]: it has no 'bufferView'");
   expect("\"buffer\":0", "\"buffer\":1", "bufferViews[0].buffer: 1 is out of range");
+  expect("\"buffer\":0", "\"extensions\":{\"EXT_meshopt_compression\":{}},\"buffer\":9",
+         "bufferViews[0].buffer: 9 is out of range");
+  expect("}],\"bufferViews\":[{\"buffer\":0",
+         "},{\"byteLength\":60}],\"bufferViews\":[{\"extensions\":{\"EXT_meshopt_compression\":{}},\"buffer\":1",
+         "bufferViews[0]: its data are compressed by 'EXT_meshopt_compression'");
+  expect("}],\"bufferViews\":[{\"buffer\":0", "},{\"byteLength\":60}],\"bufferViews\":[{\"buffer\":1",
+         "buffers[1]: it has neither a 'uri' nor a binary chunk");
   expect("\"byteOffset\":0", "\"byteOffset\":9007199254740992", "bufferViews[0]: bytes 9007199254740992 to ");
   expect("\"byteLength\":48", "\"byteLength\":9007199254740992", "bufferViews[0]: bytes 0 to ");
   expect("\"byteLength\":60", "\"byteLength\":61", "buffers[0].byteLength: 61 bytes where there are 60");

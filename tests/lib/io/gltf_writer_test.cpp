@@ -346,6 +346,46 @@ TEST(Glb, ObjectsAreNodesAndMaterialsPrimitivesInTinyGltf) {
   EXPECT_EQ(text.meshes, model.meshes);
 }
 
+TEST(Glb, WhatAFileChangesIsTold) {
+  Mesh mesh = square();
+  mesh.vertex_values = {{"red", {0, 1.5, 0, -1}},
+                        {"green", {0, 1, 0.5, 1}},
+                        {"blue", {0, 1, 0, 1}},
+                        {"part", {16777216, 16777217, 0, -16777219}, ValueType::int32},
+                        {"mark", {0, 300, 255.4, -1}, ValueType::uint8},
+                        {"heat", {0.1, 1e-300, 0, 0}}};
+  EXPECT_EQ(changes_in_gltf(mesh),
+            (std::vector<std::string>{
+                "values 'part' beyond the whole numbers that floats have, 2 of them, are rounded",
+                "values 'mark' beyond their type, 2 of them, are cut off",
+                "numbers of colours of vertices beyond 0 to 1, 2 of them, are cut off; a .ply of type float or double "
+                "keeps them"}));
+  const Mesh read = parse_gltf(format_glb(mesh), "a.glb");
+  const auto values = [&](const std::string& name) {
+    return std::ranges::find(read.vertex_values, name, &Mesh::Values::name)->values;
+  };
+  EXPECT_EQ(values("red"), (std::vector<double>{0, 1, 0, 0}));
+  EXPECT_EQ(values("mark"), (std::vector<double>{0, 255, 255, 0}));
+  EXPECT_EQ(values("part"), (std::vector<double>{16777216, 16777216, 0, -16777220}));
+  mesh.vertex_values.clear();
+  EXPECT_TRUE(changes_in_gltf(mesh).empty());
+}
+
+// Two values of one name, and one of the name that numbers of vertices have: each has an attribute.
+TEST(Glb, ValuesOfOneNameHaveAttributesOfTheirOwn) {
+  Mesh mesh = square();
+  mesh.vertex_values = {{"heat", {0, 1, 2, 3}, ValueType::float32},
+                        {"heat", {4, 5, 6, 7}, ValueType::float32},
+                        {"VERTEX", {8, 9, 10, 11}, ValueType::float32},
+                        {"red", {0, 0, 1, 1}, ValueType::float32}};
+  const Mesh read = parse_gltf(format_glb(mesh), "a.glb");
+  std::vector<std::pair<std::string, double>> last;
+  for (const Mesh::Values& one : read.vertex_values) last.emplace_back(one.name, one.values[3]);
+  std::ranges::sort(last);
+  EXPECT_EQ(last,
+            (std::vector<std::pair<std::string, double>>{{"VERTEX_", 11}, {"heat", 3}, {"heat_", 7}, {"red", 1}}));
+}
+
 TEST(Glb, FilesAreTheSameForAnyNumberOfThreads) {
   const TemporaryDirectory directory;
   Mesh mesh = torus(200, 70);

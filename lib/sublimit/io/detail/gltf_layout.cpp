@@ -113,7 +113,7 @@ void GltfLayout::add_triangles(GltfPrimitive& primitive, std::span<const Index> 
     const bool is_one = triangles.is_fan() && vertex_at(cut[0][0]) != last;
     for (FaceTriangles::Corners one : cut) {
       // Triangles that are not of one fan begin with different vertices.
-      if (!is_one && vertex_at(one[0]) == last) std::ranges::rotate(one, one.begin() + 1);
+      if (!is_one && vertex_at(one[0]) == last) std::rotate(one.begin(), one.begin() + 1, one.end());
       for (const Index corner : one) corners.push_back(vertex_at(corner));
       if (!is_one) last = vertex_at(one[0]);
     }
