@@ -39,7 +39,7 @@ class GltfScene {
     for (const GltfInstance& instance : instances_) {
       if (instance.node >= 0) reserve_node(root_.element("nodes", instance.node));
       if (!meshes_.contains(instance.mesh))
-        meshes_.emplace(instance.mesh, read_gltf_mesh(file_, instance.mesh, reservations_));
+        meshes_.emplace(instance.mesh, read_gltf_mesh(file_, instance.mesh, reservations_, rows_));
     }
     make_room();
     for (const GltfInstance& instance : instances_) add(instance, meshes_.at(instance.mesh));
@@ -254,6 +254,7 @@ class GltfScene {
   GltfReservations reservations_;
   std::vector<GltfInstance> instances_;
   std::map<std::int64_t, GltfMesh> meshes_;
+  GltfRows rows_;
   ObjNames objects_, materials_;
   std::map<Index, Index> material_numbers_;
   std::vector<std::array<double, 3>> positions_;

@@ -73,8 +73,12 @@ struct Source {
 
 class MeshReader {
  public:
-  MeshReader(GltfFile& file, std::int64_t number, GltfReservations& reservations)
-      : file_(file), object_(file.root().element("meshes", number)), reservations_(reservations) {}
+  MeshReader(GltfFile& file, std::int64_t number, GltfReservations& reservations, GltfRows& rows)
+      : file_(file),
+        object_(file.root().element("meshes", number)),
+        reservations_(reservations),
+        vertex_of_(rows.vertex),
+        last_user_(rows.last_user) {}
 
   GltfMesh read() {
     // Primitives that share positions share their vertices in the order of these.
@@ -366,9 +370,8 @@ class MeshReader {
   GltfObject object_;
   GltfReservations& reservations_;
   GltfMesh mesh_;
-  EqualRowsOf<4> welded_;  // its vertices, also those in no face
-  // For each row of the accessors of a group: its vertex, and the primitive that set values there last.
-  std::vector<Index> vertex_of_, last_user_;
+  EqualRowsOf<4> welded_;                      // its vertices, also those in no face
+  std::vector<Index>&vertex_of_, &last_user_;  // of rows of the accessors of a group
   std::vector<Index> used_;
   Index num_users_ = 0;
   std::map<std::pair<bool, std::string>, std::size_t> columns_;  // values by whether they are colours, and names
@@ -395,8 +398,8 @@ std::vector<std::string> GltfReservations::messages(const std::string& file) con
   return all;
 }
 
-GltfMesh read_gltf_mesh(GltfFile& file, std::int64_t number, GltfReservations& reservations) {
-  return MeshReader(file, number, reservations).read();
+GltfMesh read_gltf_mesh(GltfFile& file, std::int64_t number, GltfReservations& reservations, GltfRows& rows) {
+  return MeshReader(file, number, reservations, rows).read();
 }
 
 }  // namespace sublimit

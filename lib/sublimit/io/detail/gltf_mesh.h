@@ -53,9 +53,15 @@ struct GltfMesh {
   std::int64_t file_vertices = 0;  ///< before they were welded
 };
 
+/// Memory that meshes of a file share, which may have the same long accessor: for each of its rows the vertex, and the
+/// primitive that set values there last; -1 between meshes.
+struct GltfRows {
+  std::vector<Index> vertex = {}, last_user = {};
+};
+
 /// Reads a mesh of a file.
 /// @param reservations  where things that are left out are told
 /// @throws FormatError, InvalidMesh, IoError, ResourceError  as `read_gltf`
-GltfMesh read_gltf_mesh(GltfFile& file, std::int64_t number, GltfReservations& reservations);
+GltfMesh read_gltf_mesh(GltfFile& file, std::int64_t number, GltfReservations& reservations, GltfRows& rows);
 
 }  // namespace sublimit
