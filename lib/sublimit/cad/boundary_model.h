@@ -5,6 +5,8 @@
 // by index, never by position.
 #include <Eigen/Core>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,8 @@ struct SplineFace {
   double volume = 0;                 ///< contribution to the volume of a closed surface, outward from its front
   bool reversed = false;             ///< true if its front is opposite to du x dv
   std::string name = {};             ///< UTF-8; empty: none
+  /// Red, green and blue, 0 to 1.
+  std::optional<std::array<double, 3>> colour = {};
 };
 
 /// A model.

@@ -4,6 +4,7 @@
 // extraordinary vertices.
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "sublimit/cad/boundary_model.h"
 #include "sublimit/cad/measure.h"
@@ -16,6 +17,8 @@ struct LimitModelOptions {
   bool join_smoothly = false;       ///< see `LimitQuadOptions`
   bool pack = true;                 ///< true: merge quads into larger faces
   Mesh::FaceNames face_names = {};  ///< names of the mesh's faces; only faces of the same name are merged
+  /// Values of the mesh's faces: red, green and blue are their colours; only faces of the same colour are merged.
+  std::vector<Mesh::Values> face_values = {};
   std::int64_t max_faces = std::int64_t{1} << 17;  ///< largest number of faces of the model
   std::function<void(const std::string& what)> progress;
 };
@@ -32,7 +35,7 @@ struct LimitModel {
 /// Returns the model of a surface without its holes. The result does not depend on the number of threads.
 /// @param points  points of the surface's level, #V x 3
 /// @throws InvalidParameter, UnsupportedTopology  see `limit_quads`
-/// @throws InvalidParameter  another number of names than faces of the mesh
+/// @throws InvalidParameter  another number of names or colours than faces of the mesh
 /// @throws ResourceError     more than `max_faces` faces
 LimitModel limit_model(const LimitMap& surface, const Points& points, const LimitModelOptions& options);
 

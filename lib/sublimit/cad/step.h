@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "sublimit/patches/patches.h"
 #include "sublimit/surface/limit_surface.h"
@@ -29,6 +30,9 @@ struct StepOptions {
   bool pack = true;                  ///< regular faces as the largest B-splines that keep knots and smoothness
   LengthUnit unit = LengthUnit::mm;  ///< of STEP; a .brep has none
   Mesh::FaceNames face_names = {};   ///< STEP names of the mesh's faces; faces of different names are not packed
+  /// Values of the mesh's faces, as `Mesh::face_values`: red, green and blue are their colours in STEP. Faces of
+  /// different colours are not packed.
+  std::vector<Mesh::Values> face_values = {};
 };
 
 /// Statistics of a file that `step` wrote.
@@ -44,7 +48,7 @@ struct [[nodiscard]] StepFile {
 /// Writes a limit surface as exact B-spline faces with shared edges, solids where it is closed; holes are left out.
 /// @param path  .step, .stp or .brep
 /// @throws InvalidOption        another extension
-/// @throws InvalidParameter     a tolerance that is not positive, names that are not one for each face
+/// @throws InvalidParameter     a tolerance that is not positive, names or colours that are not one for each face
 /// @throws InvalidMesh          no faces, or no extent
 /// @throws UnsupportedTopology  a scheme without polynomials
 /// @throws IoError              a file that cannot be written

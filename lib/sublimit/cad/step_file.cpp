@@ -67,6 +67,7 @@ StepFile write_step(const LimitSurface& surface, const std::filesystem::path& pa
   wanted.join_smoothly = options.join == StepJoin::g1;
   wanted.pack = options.pack;
   wanted.face_names = options.face_names;
+  wanted.face_values = options.face_values;
   const LimitModel model = model_of(surface, wanted);
   StepFile file = write_model(model.boundary, options.unit, path, make);
   file.caps = model.caps;

@@ -5,10 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "meshes/meshes.h"
 #include "stencils/cli_program.h"
 #include "sublimit/io/detail/obj.h"
+#include "sublimit/io/write_mesh.h"
 #include "support/tolerance.h"
 
 namespace sublimit::testing {
@@ -79,6 +81,53 @@ TEST(CliStep, NamesOfGroupsAndObjectsAreThoseOfFaces) {
     EXPECT_EQ(upper + lower, json["faces"]) << scheme[0];
     EXPECT_EQ(upper, lower) << scheme[0];
   }
+}
+
+// Faces of a grid are red on the left and blue on the right, and of two materials.
+TEST(CliStep, ColoursAndMaterialsAreThoseOfFaces) {
+  const TemporaryDirectory directory;
+  const std::string in = (directory / "m.ply").string(), out = (directory / "o.step").string(),
+                    obj = (directory / "m.obj").string();
+  Mesh mesh = grid(4, 2);
+  const auto count = [](const std::string& text, const std::string& word) {
+    int found = 0;
+    for (size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  const auto faces_of = [&](const std::string& input) {
+    expect_done(sublimit({"step", input, "-s", "catmull-clark", "-o", out}));
+    return count(read_file(out), "ADVANCED_FACE(");
+  };
+  write_mesh(in, mesh);
+  const int plain_faces = faces_of(in);
+  EXPECT_EQ(count(read_file(out), "COLOUR"), 0);
+  for (const auto& [name, left, right] : {std::tuple{"red", 1.0, 0.0}, {"green", 0.0, 0.0}, {"blue", 0.0, 0.5}}) {
+    Mesh::Values& channel = mesh.face_values.emplace_back();
+    channel.name = name;
+    for (Index f = 0; f < mesh.num_faces(); ++f) channel.values.push_back(f % 4 < 2 ? left : right);
+  }
+  write_mesh(in, mesh);
+  EXPECT_GT(faces_of(in), plain_faces);
+  const std::string text = read_file(out);
+  EXPECT_EQ(count(text, "STYLED_ITEM("), count(text, "ADVANCED_FACE("));
+  EXPECT_NE(text.find("DRAUGHTING_PRE_DEFINED_COLOUR('red')"), std::string::npos);
+  EXPECT_NE(text.find("COLOUR_RGB('',0."), std::string::npos);
+
+  // None that STEP could not have.
+  mesh.face_values[2].values[0] = 1.5;
+  write_mesh(in, mesh);
+  const Outcome told = sublimit({"step", in, "-s", "catmull-clark", "-o", out});
+  EXPECT_EQ(told.status, 0);
+  EXPECT_NE(told.err.find("colours of faces are left out: 'blue' of face 0 is not within 0 to 1"), std::string::npos);
+  EXPECT_EQ(count(read_file(out), "COLOUR"), 0);
+
+  mesh.face_values.clear();
+  mesh.materials.names = {"steel", "glass"};
+  for (Index f = 0; f < mesh.num_faces(); ++f) mesh.materials.of_face.push_back(f % 4 < 2 ? 0 : 1);
+  write_mesh(obj, mesh);
+  faces_of(obj);
+  EXPECT_GT(count(read_file(out), "ADVANCED_FACE('steel'"), 0);
+  EXPECT_GT(count(read_file(out), "ADVANCED_FACE('glass'"), 0);
 }
 
 TEST(CliStep, SameInputSameBytes) {

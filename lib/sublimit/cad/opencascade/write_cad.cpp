@@ -7,21 +7,32 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
+#include <Quantity_Color.hxx>
 #include <STEPConstruct.hxx>
+#include <STEPConstruct_Styles.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
 #include <Standard_OutOfMemory.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <StepRepr_RepresentationContext.hxx>
 #include <StepRepr_RepresentationItem.hxx>
+#include <StepVisual_Colour.hxx>
+#include <StepVisual_MechanicalDesignGeometricPresentationRepresentation.hxx>
+#include <StepVisual_PresentationStyleAssignment.hxx>
+#include <StepVisual_StyledItem.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <Transfer_FinderProcess.hxx>
 #include <XSControl_TransferWriter.hxx>
 #include <XSControl_WorkSession.hxx>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <new>
 #include <sstream>
@@ -76,6 +87,39 @@ void set_names(const BoundaryModel& model, const ModelShape& made, const STEPCon
   for (size_t f = 0; f < model.faces.size(); ++f) set(made.faces[f], model.faces[f].name);
 }
 
+/// Colours of faces, as styles of their STEP entities: a list of them for each part.
+void set_colours(const BoundaryModel& model, const ModelShape& made, const STEPControl_Writer& writer) {
+  if (std::ranges::none_of(model.faces, [](const SplineFace& face) { return face.colour.has_value(); })) return;
+  const Handle(Transfer_FinderProcess) found = writer.WS()->TransferWriter()->FinderProcess();
+  TopTools_DataMapOfShapeInteger numbers;
+  for (size_t f = 0; f < model.faces.size(); ++f) numbers.Bind(made.faces[f], static_cast<int>(f));
+  STEPConstruct_DataMapOfAsciiStringTransient encoded_names;
+  STEPConstruct_DataMapOfPointTransient encoded_numbers;
+  std::map<std::array<double, 3>, Handle(StepVisual_PresentationStyleAssignment)> assignments;
+  for (const ModelShape::Part& part : made.parts) {
+    STEPConstruct_Styles styles(writer.WS());
+    for (TopExp_Explorer at(part.shape, TopAbs_FACE); at.More(); at.Next()) {
+      const int* const number = numbers.Seek(at.Current());
+      if (!number || !model.faces[static_cast<size_t>(*number)].colour) continue;
+      const std::array<double, 3>& colour = *model.faces[static_cast<size_t>(*number)].colour;
+      const Handle(StepRepr_RepresentationItem) item = STEPConstruct::FindEntity(found, at.Current());
+      if (item.IsNull()) throw Refused{"it has no entity for a face with a colour"};
+      Handle(StepVisual_PresentationStyleAssignment)& assignment = assignments[colour];
+      if (assignment.IsNull()) {
+        const Quantity_Color color(colour[0], colour[1], colour[2], Quantity_TOC_sRGB);
+        assignment = styles.MakeColorPSA(item, STEPConstruct_Styles::EncodeColor(color, encoded_names, encoded_numbers),
+                                         {}, {}, 0);
+      }
+      styles.AddStyle(item, assignment, {});
+    }
+    if (styles.NbStyles() == 0) continue;
+    const Handle(StepRepr_RepresentationContext) context = styles.FindContext(part.shape);
+    Handle(StepVisual_MechanicalDesignGeometricPresentationRepresentation) list;
+    if (context.IsNull() || !styles.CreateMDGPR(context, list)) throw Refused{"it could not make the colours of faces"};
+    writer.WS()->Model()->AddWithRefs(list);
+  }
+}
+
 std::string step_text(const BoundaryModel& source, const ModelShape& made, const std::string& name) {
   // The unit that a writer finds when it is made scales numbers, the one that it finds when it writes is told in the
   // file.
@@ -89,6 +133,7 @@ std::string step_text(const BoundaryModel& source, const ModelShape& made, const
   if (writer.Transfer(made.shape, STEPControl_AsIs) != IFSelect_RetDone)
     throw Refused{"it could not make a STEP model of the surface"};
   set_names(source, made, writer);
+  set_colours(source, made, writer);
   const Handle(StepData_StepModel) model = writer.Model();
   APIHeaderSection_MakeHeader header(model);
   header.SetName(new TCollection_HAsciiString(step_string(name).c_str()));
