@@ -221,6 +221,41 @@ TEST(CliAttributes, TagsThatAreAskedFor) {
   }
 }
 
+// What a file keeps in fewer digits, or not at all, is told once.
+TEST(CliAttributes, WhatWritersChangeIsTold) {
+  const TemporaryDirectory directory;
+  Mesh mesh = cube();
+  mesh.positions.array() += 1e8;
+  const std::string in = (directory / "in.obj").string(), out = (directory / "out.stl").string();
+  write_obj(in, mesh);
+  const Outcome told = sublimit({"refine", in, "-s", "catmull-clark", "-l", "0", "-o", out});
+  EXPECT_EQ(told.status, 0);
+  EXPECT_NE(told.err.find("sublimit: note: " + out + ": 7 of 8 different points become equal to another one"),
+            std::string::npos)
+      << told.err;
+  const Outcome quiet = sublimit({"refine", in, "-s", "catmull-clark", "-l", "0", "-o", out, "--quiet"});
+  EXPECT_EQ(quiet.err, "");
+}
+
+TEST(CliAttributes, AdviceIsNotWhatWasDone) {
+  const TemporaryDirectory directory;
+  // A band of triangles with half a turn: no winding of them agrees.
+  const std::string band = directory
+                               .write("band.obj",
+                                      "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 1\nv 0 1 1\n"
+                                      "f 1 2 3\nf 2 4 3\nf 3 4 5\nf 4 1 5\nf 5 1 2\n")
+                               .string();
+  const std::string out = (directory / "out.obj").string();
+  const Outcome told = sublimit({"refine", band, "-s", "loop", "-l", "1", "--orient", "-o", out});
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_NE(told.err.find("turning faces does not help: the surface has a single side"), std::string::npos) << told.err;
+  EXPECT_EQ(told.err.find("(--orient)"), std::string::npos) << told.err;
+  const std::string plane = directory.write("plane.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").string();
+  const Outcome refused = sublimit({"refine", plane, "-s", "doo-sabin", "-l", "1", "--boundary", "fixed", "-o", out});
+  expect_failure(refused, 2, {"boundary 'fixed': doo-sabin keeps no vertices", "such as catmull-clark or loop"});
+  EXPECT_EQ(refused.err.find("remove the tag"), std::string::npos);
+}
+
 TEST(CliAttributes, ASidecarHasKeysOfOne) {
   const TemporaryDirectory directory;
   const std::string mesh = (directory / "mesh.obj").string(), out = (directory / "out.obj").string();

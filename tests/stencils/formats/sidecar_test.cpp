@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "sublimit/base/detail/memory.h"
+#include "sublimit/base/error.h"
 #include "sublimit/io/detail/obj.h"
 #include "support/expect_error.h"
 #include "support/temporary_directory.h"
@@ -203,6 +208,36 @@ TEST(Sidecar, ReportsAreNone) {
   EXPECT_FALSE(find_sidecar(directory / "strip.obj"));
   directory.write("strip.json", R"({"format": "other", "holeIndices": [0]})");
   EXPECT_TRUE(find_sidecar(directory / "strip.obj"));
+}
+
+// Every key that is read makes a file a sidecar.
+TEST(Sidecar, IsFoundByAnyOfItsKeys) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path mesh = directory.write("a.obj", "");
+  for (const char* const key :
+       {"creaseIndices", "creaseLengths", "creaseSharpnesses", "cornerIndices", "cornerSharpnesses", "knotIntervals",
+        "knotIntervalEdges", "holeIndices", "interpolateBoundary", "creaseMethod", "triangleSubdivisionRule",
+        "faceVaryingLinearInterpolation"}) {
+    const std::string text = "{\"" + std::string(key) + "\": []}";
+    directory.write("a.json", text);
+    EXPECT_TRUE(find_sidecar(mesh).has_value()) << key;
+    Mesh strip_of_quads = strip();
+    try {  // read, whatever is wrong with it
+      apply_sidecar_text(strip_of_quads, text, "a.json");
+    } catch (const FormatError&) {
+    }
+    EXPECT_TRUE(std::ranges::none_of(strip_of_quads.warnings, [](const std::string& warning) {
+      return warning.find("unknown key") != std::string::npos;
+    })) << key;
+  }
+}
+
+TEST(Sidecar, DevicesWithoutAnEndAreRefused) {
+  Mesh mesh = strip();
+  limit_memory(1e8);
+  expect_error<ResourceError>([&] { apply_sidecar(mesh, "/dev/zero"); },
+                              {"/dev/zero: more than ", "values as JSON", "the limit is 100.0 MB"});
+  limit_memory(std::numeric_limits<double>::infinity());
 }
 
 TEST(Sidecar, IsFoundNextToTheMesh) {

@@ -12,19 +12,38 @@
 #include <vector>
 
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/base/detail/read_file.h"
 #include "sublimit/mesh/detail/edge_lookup.h"
 #include "sublimit/stencils/formats/formats.h"
+#include "sublimit/stencils/json/json_file.h"
 #include "sublimit/stencils/json/json_object.h"
 
 namespace sublimit {
 namespace {
 
-/// What a sidecar may have. A file with none of them is something else.
-constexpr std::array<std::string_view, 12> sidecar_keys{
+/// Keys that a sidecar may have. A file with none of them is something else.
+namespace keys {
+enum Key {
+  crease_indices,
+  crease_lengths,
+  crease_sharpnesses,
+  corner_indices,
+  corner_sharpnesses,
+  knot_intervals,
+  knot_interval_edges,
+  hole_indices,
+  interpolate_boundary,
+  crease_method,
+  triangle_subdivision_rule,
+  face_varying_linear_interpolation,
+  count
+};
+constexpr std::array<const char*, count> names{
     "creaseIndices",       "creaseLengths", "creaseSharpnesses",       "cornerIndices",
     "cornerSharpnesses",   "knotIntervals", "knotIntervalEdges",       "holeIndices",
     "interpolateBoundary", "creaseMethod",  "triangleSubdivisionRule", "faceVaryingLinearInterpolation"};
+}  // namespace keys
+
+std::string key_name(keys::Key key) { return keys::names[key]; }
 
 class Sidecar {
  public:
@@ -38,32 +57,33 @@ class Sidecar {
     std::vector<Mesh::Crease> creases = read_creases();
     std::vector<Mesh::Corner> corners = read_corners();
     std::vector<Mesh::KnotInterval> intervals = read_intervals(mesh);
-    std::vector<Index> holes = read_ids("holeIndices", counts_.faces, "a face");
+    std::vector<Index> holes = read_ids(key_name(keys::hole_indices), counts_.faces, "a face");
     const auto boundary = choice<Boundary>(
-        "interpolateBoundary",
+        key_name(keys::interpolate_boundary),
         {{"none", Boundary::none}, {"edgeOnly", Boundary::edge_only}, {"edgeAndCorner", Boundary::edge_and_corner}});
-    const auto creasing =
-        choice<Creasing>("creaseMethod", {{"uniform", Creasing::uniform}, {"chaikin", Creasing::chaikin}});
-    const auto triangles = choice<Triangles>("triangleSubdivisionRule",
+    const auto creasing = choice<Creasing>(key_name(keys::crease_method),
+                                           {{"uniform", Creasing::uniform}, {"chaikin", Creasing::chaikin}});
+    const auto triangles = choice<Triangles>(key_name(keys::triangle_subdivision_rule),
                                              {{"catmullClark", Triangles::catmark}, {"smooth", Triangles::smooth}});
     using enum FaceVaryingInterpolation;
-    const auto face_varying =
-        choice<FaceVaryingInterpolation>("faceVaryingLinearInterpolation", {{"none", none},
-                                                                            {"cornersOnly", corners_only},
-                                                                            {"cornersPlus1", corners_plus1},
-                                                                            {"cornersPlus2", corners_plus2},
-                                                                            {"boundaries", boundaries},
-                                                                            {"all", all}});
-    if (object_.has("creaseIndices")) {
+    const auto face_varying = choice<FaceVaryingInterpolation>(key_name(keys::face_varying_linear_interpolation),
+                                                               {{"none", none},
+                                                                {"cornersOnly", corners_only},
+                                                                {"cornersPlus1", corners_plus1},
+                                                                {"cornersPlus2", corners_plus2},
+                                                                {"boundaries", boundaries},
+                                                                {"all", all}});
+    if (object_.has(key_name(keys::crease_indices))) {
       mesh.creases = std::move(creases);
       if (knows_edges_)
         drop_loose_creases(mesh, [&](std::size_t i) {
-          return object_.place() + ": " + JsonObject::entry("creaseIndices", crease_positions_[i]) + ": ";
+          return object_.place() + ": " + JsonObject::entry(key_name(keys::crease_indices), crease_positions_[i]) +
+                 ": ";
         });
     }
-    if (object_.has("cornerIndices")) mesh.corners = std::move(corners);
-    if (object_.has("knotIntervals")) mesh.knot_intervals = std::move(intervals);
-    if (object_.has("holeIndices")) mesh.holes = std::move(holes);
+    if (object_.has(key_name(keys::corner_indices))) mesh.corners = std::move(corners);
+    if (object_.has(key_name(keys::knot_intervals))) mesh.knot_intervals = std::move(intervals);
+    if (object_.has(key_name(keys::hole_indices))) mesh.holes = std::move(holes);
     if (boundary) mesh.boundary = boundary;
     if (creasing) mesh.creasing = creasing;
     if (triangles) mesh.triangles = triangles;
@@ -77,9 +97,9 @@ class Sidecar {
     if (!object_.has(key)) object_.fail(beside, "comes without " + key);
   }
   /// Returns true if a key is there. Without it there may be none of those that go with it.
-  bool has(const std::string& key, std::initializer_list<const char*> with) {
+  bool has(const std::string& key, std::initializer_list<std::string> with) {
     if (object_.has(key)) return true;
-    for (const char* const other : with)
+    for (const std::string& other : with)
       if (object_.has(other)) object_.fail(other, "comes without " + key);
     return false;
   }
@@ -102,29 +122,32 @@ class Sidecar {
   }
 
   std::vector<Mesh::Crease> read_creases() {
-    const std::vector<Index> ids = read_ids("creaseIndices", counts_.vertices, "a vertex");
-    if (!has("creaseIndices", {"creaseLengths", "creaseSharpnesses"})) return {};
-    require_beside("creaseLengths", "creaseIndices");
-    const std::vector<int> lengths =
-        object_.integers("creaseLengths", 2, std::numeric_limits<int>::max(), "the number of vertices of a chain,");
-    const std::vector<float> sharpnesses = read_sharpnesses("creaseSharpnesses", "creaseIndices");
+    const std::vector<Index> ids = read_ids(key_name(keys::crease_indices), counts_.vertices, "a vertex");
+    if (!has(key_name(keys::crease_indices), {key_name(keys::crease_lengths), key_name(keys::crease_sharpnesses)}))
+      return {};
+    require_beside(key_name(keys::crease_lengths), key_name(keys::crease_indices));
+    const std::vector<int> lengths = object_.integers(
+        key_name(keys::crease_lengths), 2, std::numeric_limits<int>::max(), "the number of vertices of a chain,");
+    const std::vector<float> sharpnesses =
+        read_sharpnesses(key_name(keys::crease_sharpnesses), key_name(keys::crease_indices));
 
     std::size_t used = 0;
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       if (std::size_t(lengths[i]) > ids.size() - used)
-        object_.fail(JsonObject::entry("creaseLengths", i),
+        object_.fail(JsonObject::entry(key_name(keys::crease_lengths), i),
                      "the chains need more vertices than the " + format_number(ids.size()) + " of creaseIndices");
       used += std::size_t(lengths[i]);
     }
     if (used < ids.size())
-      object_.fail("creaseLengths",
+      object_.fail(key_name(keys::crease_lengths),
                    "they add up to " + format_number(used) + "; creaseIndices has " + format_number(ids.size()));
     const std::size_t edges = used - lengths.size();
     const bool per_chain = sharpnesses.size() == lengths.size();
     if (!per_chain && sharpnesses.size() != edges)
-      object_.fail("creaseSharpnesses", "has " + format_number(sharpnesses.size()) + " values; it should have " +
-                                            format_number(lengths.size()) + ", one for each chain, or " +
-                                            format_number(edges) + ", one for each edge");
+      object_.fail(key_name(keys::crease_sharpnesses), "has " + format_number(sharpnesses.size()) +
+                                                           " values; it should have " + format_number(lengths.size()) +
+                                                           ", one for each chain, or " + format_number(edges) +
+                                                           ", one for each edge");
 
     std::vector<Mesh::Crease> creases;
     std::size_t position = 0;
@@ -140,12 +163,14 @@ class Sidecar {
   }
 
   std::vector<Mesh::Corner> read_corners() {
-    const std::vector<Index> ids = read_ids("cornerIndices", counts_.vertices, "a vertex");
-    if (!has("cornerIndices", {"cornerSharpnesses"})) return {};
-    const std::vector<float> sharpnesses = read_sharpnesses("cornerSharpnesses", "cornerIndices");
+    const std::vector<Index> ids = read_ids(key_name(keys::corner_indices), counts_.vertices, "a vertex");
+    if (!has(key_name(keys::corner_indices), {key_name(keys::corner_sharpnesses)})) return {};
+    const std::vector<float> sharpnesses =
+        read_sharpnesses(key_name(keys::corner_sharpnesses), key_name(keys::corner_indices));
     if (sharpnesses.size() != ids.size())
-      object_.fail("cornerSharpnesses", "has " + format_number(sharpnesses.size()) + " values; it should have " +
-                                            format_number(ids.size()) + ", one for each of cornerIndices");
+      object_.fail(key_name(keys::corner_sharpnesses), "has " + format_number(sharpnesses.size()) +
+                                                           " values; it should have " + format_number(ids.size()) +
+                                                           ", one for each of cornerIndices");
     std::vector<Mesh::Corner> corners;
     for (std::size_t i = 0; i < ids.size(); ++i) corners.push_back({.vertex = ids[i], .sharpness = sharpnesses[i]});
     return corners;
@@ -153,17 +178,18 @@ class Sidecar {
 
   /// `knotIntervals` as numbers, `knotIntervalEdges` as two vertices for each.
   std::vector<Mesh::KnotInterval> read_intervals(const Mesh& mesh) {
-    const std::vector<Index> ids = read_ids("knotIntervalEdges", counts_.vertices, "a vertex");
-    if (!has("knotIntervals", {"knotIntervalEdges"})) return {};
-    require_beside("knotIntervalEdges", "knotIntervals");
-    const std::vector<double> lengths = object_.numbers("knotIntervals");
+    const std::vector<Index> ids = read_ids(key_name(keys::knot_interval_edges), counts_.vertices, "a vertex");
+    if (!has(key_name(keys::knot_intervals), {key_name(keys::knot_interval_edges)})) return {};
+    require_beside(key_name(keys::knot_interval_edges), key_name(keys::knot_intervals));
+    const std::vector<double> lengths = object_.numbers(key_name(keys::knot_intervals));
     if (ids.size() != 2 * lengths.size())
-      object_.fail("knotIntervalEdges", "has " + format_number(ids.size()) + " vertices; it should have " +
-                                            format_number(2 * lengths.size()) + ", two for each of knotIntervals");
+      object_.fail(key_name(keys::knot_interval_edges),
+                   "has " + format_number(ids.size()) + " vertices; it should have " +
+                       format_number(2 * lengths.size()) + ", two for each of knotIntervals");
     std::vector<Mesh::KnotInterval> intervals;
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       if (lengths[i] < 0)
-        object_.fail(JsonObject::entry("knotIntervals", i),
+        object_.fail(JsonObject::entry(key_name(keys::knot_intervals), i),
                      "is " + format_number(lengths[i]) + "; an interval should be a positive number");
       intervals.push_back({.tail = ids[2 * i], .head = ids[2 * i + 1], .length = lengths[i]});
     }
@@ -171,7 +197,7 @@ class Sidecar {
     const std::vector<bool> found = along_edges(mesh, edges_of(intervals));
     if (const auto missing = std::ranges::find(found, false); missing != found.end()) {
       const auto i = static_cast<std::size_t>(missing - found.begin());
-      object_.fail(JsonObject::entry("knotIntervalEdges", 2 * i),
+      object_.fail(JsonObject::entry(key_name(keys::knot_interval_edges), 2 * i),
                    "no face has an edge between vertices " + format_number(intervals[i].tail) + " and " +
                        format_number(intervals[i].head) + "; an interval is of an edge");
     }
@@ -221,14 +247,14 @@ std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& m
   path.replace_extension(".json");
   std::error_code error;
   if (path == mesh || !std::filesystem::is_regular_file(path, error) || is_report(path)) return std::nullopt;
-  const std::string text = read_file(path);
+  const std::string text = read_json_text(path);
   const bool has_key = std::ranges::any_of(
-      sidecar_keys, [&](std::string_view key) { return text.find('"' + std::string(key) + '"') != std::string::npos; });
+      keys::names, [&](const char* key) { return text.find('"' + std::string(key) + '"') != std::string::npos; });
   return has_key ? std::optional(path) : std::nullopt;
 }
 
 void apply_sidecar(Mesh& mesh, const std::filesystem::path& path) {
-  apply_sidecar_text(mesh, read_file(path), path.string());
+  apply_sidecar_text(mesh, read_json_text(path), path.string());
 }
 
 void apply_sidecar_text(Mesh& mesh, std::string_view text, std::string_view name,

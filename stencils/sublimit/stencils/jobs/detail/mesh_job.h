@@ -54,6 +54,7 @@ MeshJob scheme_job(const MeshRequest& request);
 MeshJob mesh_job(const MeshRequest& request, Mesh mesh, const std::string& name);
 
 /// Returns the reasons why a mesh is not a manifold, as words; empty if it is one.
-std::vector<std::string> faults(const Mesh& mesh);
+/// @param turned  `orient_faces` has done what it can: advice is not to turn faces
+std::vector<std::string> faults(const Mesh& mesh, bool turned = false);
 
 }  // namespace sublimit

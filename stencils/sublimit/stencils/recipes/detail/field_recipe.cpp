@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/nearest_names.h"
 #include "sublimit/implicit/detail/combinations.h"
 #include "sublimit/stencils/recipes/detail/recipe.h"
+#include "sublimit/stencils/json/json_file.h"
 #include "sublimit/stencils/recipes/detail/recipe_object.h"
 
 namespace sublimit {
@@ -176,6 +176,8 @@ FieldJob parse_field_job(std::string_view text, const std::string& name) {
   return read_job(std::get<FieldRecipe>(found->shape).object, found->place);
 }
 
-FieldJob read_field_job(const std::filesystem::path& path) { return parse_field_job(read_file(path), path.string()); }
+FieldJob read_field_job(const std::filesystem::path& path) {
+  return parse_field_job(read_json_text(path), path.string());
+}
 
 }  // namespace sublimit

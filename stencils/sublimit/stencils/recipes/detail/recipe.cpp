@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "sublimit/base/detail/format_number.h"
-#include "sublimit/base/detail/read_file.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/nearest_names.h"
+#include "sublimit/stencils/json/json_file.h"
 #include "sublimit/stencils/recipes/detail/recipe_readers.h"
 
 namespace sublimit {
@@ -127,7 +127,7 @@ std::vector<Recipe> parse_recipes(std::string_view text, const std::string& name
 }
 
 std::vector<Recipe> read_recipes(const std::filesystem::path& path) {
-  return parse_recipes(read_file(path), path.string());
+  return parse_recipes(read_json_text(path), path.string());
 }
 
 }  // namespace sublimit
