@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "meshes/meshes.h"
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/core/detail/sparse_product.h"
 #include "sublimit/fit/detail/vertex_limits.h"
 #include "sublimit/limit/detail/limit_points.h"
@@ -203,6 +205,23 @@ TEST(ControlPlace, IsAVertexOrAFace) {
   for (Index v = 0; v < 8; ++v) EXPECT_EQ(control_place(levels, Vertex{v}), "vertex " + std::to_string(v));
   for (Index f = 0; f < 6; ++f)  // face points of level 1
     EXPECT_EQ(control_place(levels, Vertex{8 + f}), "a point in face " + std::to_string(f));
+}
+
+// Rows have the square of a face's corners as entries, which is said before they are made.
+TEST(LimitMemory, LargeFacesAreRefusedBeforeTheyTakeIt) {
+  std::vector<Index> corners;
+  for (Index i = 0; i < 500; ++i) corners.push_back(i);
+  const Mesh mesh = sheets(500, {corners});
+  const Scheme<double> scheme = *find_scheme("catmull-clark");
+  LimitCache cache(scheme);
+  const std::vector<Level> levels = refine(scheme, mesh, 0);
+  limit_memory(1e7);  // 500 * 500 * 48 is 1.2e7
+  expect_error<ResourceError>(
+      [&] { (void)limit_matrices(levels, cache); },
+      {"limits of 500 vertices in faces of up to 500 corners take about 11.9 MB", "cut large faces, or refine first"});
+  limit_memory(2e7);
+  EXPECT_EQ(limit_matrices(levels, cache).position.rows(), 500);
+  limit_memory(std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 
+#include "sublimit/base/detail/memory.h"
 #include "sublimit/base/detail/parallel_for.h"
 #include "sublimit/base/error.h"
 #include "sublimit/core/detail/sparse_product.h"
@@ -37,10 +39,26 @@ Vector3d turn_of(const LimitMatrices& limit, const Topology& t, Index side, cons
   return turn;
 }
 
+/// Rows have the vertices of all faces around a vertex: the square of a large face's corners.
+void check_limit_memory(const Topology& t, bool is_dual) {
+  double entries = double(t.num_vertices()) + 2.0 * t.num_edges();
+  Index largest = 0;
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    const double size = t.size(Face{f});
+    entries += size * (size - 3);
+    largest = std::max(largest, t.size(Face{f}));
+  }
+  constexpr double bytes = 48;  // of three rows, with their indices, and of what they are copied from
+  check_memory("limits of " + std::to_string(t.num_vertices()) + " vertices in faces of up to " +
+                   std::to_string(largest) + " corners",
+               bytes * (is_dual ? 2 : 1) * entries, "cut large faces, or refine first (--levels 1)");
+}
+
 }  // namespace
 
 LimitMatrices limit_matrices(const Level& level, LimitCache& cache) {
   const Index num_vertices = level.topology().num_vertices();
+  check_limit_memory(level.topology(), cache.scheme().is_dual());
   VertexSides sides = vertex_sides(level);
   LimitMatrices result;
   result.side_vertex = std::move(sides.vertex);
