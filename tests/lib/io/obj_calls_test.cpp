@@ -56,13 +56,19 @@ TEST(ObjCalls, MessagesNameTheCalledFile) {
 TEST(ObjCalls, WhatIsLeftOutIsTold) {
   const TemporaryDirectory directory;
   const std::string path =
-      directory.write("main.obj", "call none.obj\n" + four_points + "call a.obj 1 2\nf 1 2 3\ncall\ncaller\n").string();
+      directory.write("main.obj", "call none.obj\n" + four_points + "call a.obj 1 2\nf 1 2 3\ncall\ncaller\ncall .\n")
+          .string();
   const Mesh mesh = read_mesh(path);
-  ASSERT_EQ(mesh.warnings.size(), 4u);
+  ASSERT_EQ(mesh.warnings.size(), 5u);
   EXPECT_EQ(mesh.warnings[0], path + ":1: call of 'none.obj' left out: there is no such file");
   EXPECT_EQ(mesh.warnings[1], path + ":6: call of 'a.obj 1 2' left out: arguments of calls are not understood");
-  EXPECT_EQ(mesh.warnings[2], path + ":8: call of '' left out: there is no such file");
-  EXPECT_EQ(mesh.warnings[3], path + ":9: unknown keyword 'caller' ignored");
+  EXPECT_EQ(mesh.warnings[2], path + ":8: call left out: it names no file");
+  EXPECT_EQ(mesh.warnings[3], path + ":10: call of '.' left out: it is a directory");
+  EXPECT_EQ(mesh.warnings[4], path + ":9: unknown keyword 'caller' ignored");
+  // Where the faces are missing, they may be in the file that is.
+  directory.write("main.obj", four_points + "call faces.obj\n");
+  expect_error<InvalidMesh>([&] { (void)read_mesh(path); },
+                            {"no faces", "; " + path + ":5: call of 'faces.obj' left out: there is no such file"});
 }
 
 TEST(ObjCalls, FilesThatMultiplyAreRefused) {

@@ -17,7 +17,7 @@
 namespace sublimit::testing {
 namespace {
 
-const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+const std::string square_text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
 using Ids = std::vector<Index>;
 
@@ -38,7 +38,7 @@ TEST(Obj, ReadsPositionsAndFacesOfAnySize) {
 
 TEST(Obj, CornersMayHaveTextureCoordinatesAndNormals) {
   for (const char* const face : {"f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3", "f 1/ 2// 3/-1/-1"}) {
-    EXPECT_EQ(parse_obj(square + face, "a.obj").face_vertices, (Ids{0, 1, 2, 3, 0, 1, 2})) << face;
+    EXPECT_EQ(parse_obj(square_text + face, "a.obj").face_vertices, (Ids{0, 1, 2, 3, 0, 1, 2})) << face;
   }
 }
 
@@ -56,7 +56,7 @@ TEST(Obj, FacesAndTagsMayComeBeforeVertices) {
 }
 
 TEST(Obj, LinesMayBeContinuedAndEndInAnyWay) {
-  const Mesh plain = parse_obj(square, "a.obj");
+  const Mesh plain = parse_obj(square_text, "a.obj");
   for (const std::string text : {
            "v 0 0 \\\n0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2\\\n 3 \\\n 4",
            "v 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf 1 2 \\\r\n3 4\r\n",
@@ -79,13 +79,13 @@ TEST(Obj, WeightsAndColoursAreDropped) {
 
 TEST(Obj, StatementsThatAreNoMeshAreSkippedInSilence) {
   const Mesh mesh = parse_obj(
-      "mtllib a b.mtl\no x\ng a b\ns off\nvt 0 0\nvn 0 0 1\nvp 1\nusemtl steel\nl 1 2\np 1\n" + square, "a.obj");
+      "mtllib a b.mtl\no x\ng a b\ns off\nvt 0 0\nvn 0 0 1\nvp 1\nusemtl steel\nl 1 2\np 1\n" + square_text, "a.obj");
   EXPECT_EQ(mesh.num_faces(), 1);
   EXPECT_TRUE(mesh.warnings.empty());
 }
 
 std::vector<std::string> names_of_faces(const std::string& faces) {
-  const Mesh mesh = parse_obj(square + faces, "a.obj");
+  const Mesh mesh = parse_obj(square_text + faces, "a.obj");
   std::vector<std::string> names;
   for (const Index name : mesh.face_names().of_face)
     names.push_back(name < 0 ? std::string() : mesh.face_names().names[size_t(name)]);
@@ -96,7 +96,7 @@ TEST(Obj, GroupsNameFacesAndObjectsThoseWithoutGroup) {
   using Names = std::vector<std::string>;
   const std::string f = "f 1 2 3\n";
   EXPECT_EQ(names_of_faces(f + f), Names());
-  EXPECT_EQ(names_of_faces("g a\n" + f + "g\n" + f), Names({"", "a", ""}));  // the square has none
+  EXPECT_EQ(names_of_faces("g a\n" + f + "g\n" + f), Names({"", "a", ""}));  // the square_text has none
   EXPECT_EQ(names_of_faces("o thing\n" + f + "g a\n" + f + "o other\n" + f + "g\n" + f),
             Names({"", "thing", "a", "a", "other"}));
   EXPECT_EQ(names_of_faces("g left  side # words\n" + f + "g \\\nleft side\n" + f),
@@ -107,7 +107,7 @@ TEST(Obj, GroupsNameFacesAndObjectsThoseWithoutGroup) {
 // A # inside of a name is part of it; behind a blank it begins a comment.
 TEST(Obj, NamesMayHaveNumberSigns) {
   const std::string f = "f 1 2 3\n";
-  const Mesh mesh = parse_obj("mtllib a#b.mtl # of materials\n" + square +
+  const Mesh mesh = parse_obj("mtllib a#b.mtl # of materials\n" + square_text +
                                   "usemtl a#1\no part#2 # two\ng x#y z#\ns #\n" + f + "usemtl a#2\n" + f,
                               "a.obj");
   EXPECT_EQ(mesh.materials.names, (std::vector<std::string>{"a#1", "a#2"}));
@@ -161,26 +161,26 @@ TEST(Obj, TakesNoMoreMemoryThanAJobMay) {
 }
 
 TEST(Obj, NamesOfFacesAreThereOnce) {
-  const Mesh mesh = parse_obj("g a\n" + square + "o b\nf 1 2 3\ng\nf 1 2 3\ng a\nf 1 2 3\n", "a.obj");
+  const Mesh mesh = parse_obj("g a\n" + square_text + "o b\nf 1 2 3\ng\nf 1 2 3\ng a\nf 1 2 3\n", "a.obj");
   EXPECT_EQ(mesh.face_names().names, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(mesh.face_names().of_face, (Ids{0, 0, 1, 0}));
 }
 
 TEST(Obj, UnknownKeywordsAreWarnedAboutOnceEach) {
-  const Mesh mesh = parse_obj("bzp 1 2\n" + square + "bzp 0 2\nfoo\n", "a.obj");
+  const Mesh mesh = parse_obj("bzp 1 2\n" + square_text + "bzp 0 2\nfoo\n", "a.obj");
   ASSERT_EQ(mesh.warnings.size(), 2u);
   EXPECT_EQ(mesh.warnings[0], "a.obj:1: unknown keyword 'bzp' ignored");
   EXPECT_EQ(mesh.warnings[1], "a.obj:8: unknown keyword 'foo' ignored");
 }
 
 TEST(Obj, WarningsDoNotGrowWithTheFile) {
-  std::string text = square;
+  std::string text = square_text;
   for (int i = 0; i < 1000; ++i) text += "k" + format_number(i) + "\nt t" + format_number(i) + "\n";
   EXPECT_LE(parse_obj(text, "a.obj").warnings.size(), 50u);
 }
 
 TEST(Obj, ReadsEveryTag) {
-  const Mesh mesh = parse_obj(square +
+  const Mesh mesh = parse_obj(square_text +
                                   "t crease 2/1/0 0 1 2.5\n"
                                   "t crease 4/1/0 1 2 3 2 inf\n"
                                   "t crease 4/2/0 0 3 1 0 0.5 12\n"
@@ -218,7 +218,7 @@ TEST(Obj, TheTagNamesEveryFaceVaryingInterpolation) {
   for (const FaceVaryingInterpolation interpolation :
        {none, corners_only, corners_plus1, corners_plus2, boundaries, all}) {
     const std::string tag = "t facevaryinginterpolateboundary 1/0/0 " + format_number(number++) + "\n";
-    const Mesh mesh = parse_obj(square + tag, "a.obj");
+    const Mesh mesh = parse_obj(square_text + tag, "a.obj");
     EXPECT_EQ(mesh.face_varying_interpolation, interpolation);
     EXPECT_NE(format_obj(mesh).find(tag), std::string::npos);
   }
@@ -254,16 +254,16 @@ TEST(Obj, TextureCoordinatesOfSomeCornersAreDropped) {
               "a.obj:" + format_number(line) +
                   ": corners without texture coordinate, which others have; texture coordinates are dropped");
   }
-  EXPECT_TRUE(parse_obj("vt 0 0\n" + square, "a.obj").warnings.empty());  // no corner has any
+  EXPECT_TRUE(parse_obj("vt 0 0\n" + square_text, "a.obj").warnings.empty());  // no corner has any
 }
 
 TEST(Obj, OptionsAreAbsentWhereTheFileSaysNothing) {
-  const Mesh mesh = parse_obj(square, "a.obj");
+  const Mesh mesh = parse_obj(square_text, "a.obj");
   EXPECT_FALSE(mesh.boundary || mesh.creasing || mesh.triangles);
 }
 
 TEST(Obj, LaterOptionsWin) {
-  const Mesh mesh = parse_obj(square +
+  const Mesh mesh = parse_obj(square_text +
                                   "t interpolateboundary 1/0/0 0\nt interpolateboundary 1/0/0 1\n"
                                   "t creasemethod 0/0/1 chaikin\nt creasemethod 0/0/1 normal\n"
                                   "t smoothtriangles 0/0/1 smooth\nt smoothtriangles 0/0/1 catmark\n",
@@ -274,7 +274,7 @@ TEST(Obj, LaterOptionsWin) {
 }
 
 TEST(Obj, HierarchicalEditsAndUnknownTagsAreWarnedAboutOnceEach) {
-  const Mesh mesh = parse_obj(square +
+  const Mesh mesh = parse_obj(square_text +
                                   "t vertexedit 4/3/3 3 0 1 0 0 0 1 add P value\nt vertexedit\n"
                                   "t edgeedit 1/0/0 1\nt faceedit x\nt glitter 0/0/1 much\n",
                               "a.obj");
@@ -303,7 +303,7 @@ TEST(Obj, PolesOfManyCreasesTakeLinearTime) {
 
 TEST(Obj, ReadsFiles) {
   const TemporaryDirectory directory;
-  EXPECT_EQ(read_obj(directory.write("a.obj", square)).num_faces(), 1);
+  EXPECT_EQ(read_obj(directory.write("a.obj", square_text)).num_faces(), 1);
 }
 
 }  // namespace

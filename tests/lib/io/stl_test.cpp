@@ -52,7 +52,7 @@ std::string binary(std::string head, const std::vector<std::vector<float>>& tria
 
 const std::vector<std::vector<float>> square{{0, 0, 0, 1, 0, 0, 1, 1, 0}, {-0.0f, 0, 0, 1, 1, 0, 0, 1, 0}};
 
-Points square_points() {
+Points corners_of_square() {
   Points points(4, 3);
   points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
   return points;
@@ -60,7 +60,7 @@ Points square_points() {
 
 TEST(Stl, EqualCornersOfTextAreOneVertex) {
   const Mesh mesh = parse_stl(solid("", lower + upper), "a.stl");
-  EXPECT_EQ(mesh.positions, square_points());
+  EXPECT_EQ(mesh.positions, corners_of_square());
   EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(mesh.face_sizes, (Ids{3, 3}));
   EXPECT_TRUE(mesh.objects.of_face.empty());
@@ -75,7 +75,7 @@ TEST(Stl, EqualCornersOfBinaryAreOneVertex) {
     const std::string bytes = binary(head, square);
     EXPECT_TRUE(is_binary_stl(bytes));
     const Mesh mesh = parse_stl(bytes, "a.stl");
-    EXPECT_EQ(mesh.positions, square_points());
+    EXPECT_EQ(mesh.positions, corners_of_square());
     EXPECT_FALSE(std::signbit(mesh.positions(0, 0)));
     EXPECT_EQ(mesh.face_vertices, (Ids{0, 1, 2, 0, 2, 3}));
     EXPECT_EQ(mesh.notes, (Names{"a.stl: welded 6 corners to 4 vertices"}));
@@ -102,7 +102,7 @@ TEST(Stl, TextIsFreeOfLineEndsAndOfCase) {
     if (const std::size_t at = text.find(lower_case); at != std::string::npos) text.replace(at, word.size(), word);
   }
   const Mesh mesh = parse_stl(text, "a.stl");
-  EXPECT_EQ(mesh.positions, square_points());
+  EXPECT_EQ(mesh.positions, corners_of_square());
   EXPECT_EQ(mesh.objects.of_face, (Ids{0, 0}));
 }
 
@@ -110,14 +110,14 @@ TEST(Stl, TrianglesWithTwoEqualCornersAreLeftOut) {
   const std::string needle = facet("5 5 5", "6 6 6", "5 5 5");
   const Mesh text = parse_stl(solid("a", lower + needle) + solid("b", needle + upper), "a.stl");
   EXPECT_EQ(text.face_vertices, (Ids{0, 1, 2, 0, 2, 3}));
-  EXPECT_EQ(text.positions, square_points());
+  EXPECT_EQ(text.positions, corners_of_square());
   EXPECT_EQ(text.objects.of_face, (Ids{0, 1}));
   const std::string warning = "a.stl: 2 of 4 triangles have two equal corners and are left out; the first is number 1";
   EXPECT_EQ(text.notes, (Names{"a.stl: welded 6 corners to 4 vertices"}));
   EXPECT_EQ(text.warnings, (Names{warning}));
   const std::vector<float> same{5, 5, 5, 6, 6, 6, 6, 6, 6}, also{0, 5, 5, -0.0f, 5, 5, 6, 6, 6};
   const Mesh bytes = parse_stl(binary("", {square[0], same, also, square[1]}), "a.stl");
-  EXPECT_EQ(bytes.positions, square_points());
+  EXPECT_EQ(bytes.positions, corners_of_square());
   EXPECT_EQ(bytes.notes, (Names{"a.stl: welded 6 corners to 4 vertices"}));
   EXPECT_EQ(bytes.warnings, (Names{warning}));
   expect_error<InvalidMesh>([&] { (void)parse_stl(binary("", {same}), "a.stl"); }, {"a.stl: no triangles"});
