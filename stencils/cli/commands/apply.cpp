@@ -14,7 +14,6 @@
 #include "sublimit/stencils/bake/detail/applied_points.h"
 #include "sublimit/stencils/bake/detail/table_info.h"
 #include "sublimit/stencils/bake/detail/table_mesh.h"
-#include "sublimit/stencils/files/frame_files.h"
 #include "sublimit/stencils/files/frames.h"
 #include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/npy.h"

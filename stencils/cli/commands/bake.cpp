@@ -29,8 +29,7 @@ struct BakeOptions {
 /// `49 points of 8 control points, 3 blocks, 2 groups, 6 patches`
 void say_points(Facts& facts, const BakeOutcome& outcome, const BakeStatistics& s) {
   facts.say("{points} points of {control_points} ", {{"points", s.points}, {"control_points", outcome.control_points}});
-  facts.add(
-      {{"types", s.types}, {"weights", s.weights}, {"method", s.method == BakeMethod::rows ? "rows" : "patterns"}});
+  facts.add({{"types", s.types}, {"method", s.method == BakeMethod::rows ? "rows" : "patterns"}});
   facts.say(in_words(s) + "\n");
 }
 

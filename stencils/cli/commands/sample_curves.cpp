@@ -20,7 +20,7 @@
 #include "sublimit/stencils/files/patch_places.h"
 #include "sublimit/stencils/formats/csv_rows.h"
 #include "sublimit/stencils/formats/formats.h"
-#include "sublimit/stencils/formats/row_file.h"
+#include "sublimit/stencils/files/sample_files.h"
 #include "support/curves.h"
 #include "support/free_form.h"
 #include "support/facts.h"

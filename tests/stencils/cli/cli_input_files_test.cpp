@@ -93,7 +93,7 @@ TEST(CliInputFiles, EachIsKnownInTheWrongPlace) {
       {with_scheme({"bake", mesh, "--tessellation", "?", "-o", samples.path("out.safetensors")}),
        "--tessellation",
        {"mesh.ply"}},
-      {{"bake", "--manifest", "?"}, "--manifest", {"field.json"}},
+      {{"bake", "--manifest", "?"}, "--manifest", {"field.json", "nothing.obj"}},
       {with_scheme({"bake", mesh, "-l", "1", "--dictionary", "?", "-o", samples.path("out.safetensors")}),
        "--dictionary",
        {"table.safetensors", "folder"}},

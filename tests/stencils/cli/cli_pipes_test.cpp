@@ -70,7 +70,7 @@ struct CliPipes : ::testing::Test {
   }
 
   CliPipes() {
-    write_obj(path("cube.obj"), cube());
+    for (const char* const name : {"cube.obj", "stdin.obj"}) write_obj(path(name), cube());  // reports have the name
     write_off(path("cube.off"), cube());
     write_ply(path("cube.ply"), cube());
     directory.write("places.csv", "face,u,v\n0,0.5,0.25\n3,0,1\n");
@@ -131,7 +131,7 @@ const std::vector<Verb>& verbs() {
       {{"apply", "./table.safetensors", "IN", "-o", "OUT"}, "cube.ply", "stdout.npy", "npy"},
       {{"export", "IN", "-o", "OUT"}, "table.safetensors", "stdout.npz", "npz"},
       {{"export", "IN", "-o", "OUT"}, "table.safetensors", "stdout.mtx", "mtx"},
-      {{"analyze", "IN", "-s", "catmull-clark", "--json", "OUT"}, "cube.obj", "stdout.json", ""},
+      {{"analyze", "IN", "-s", "catmull-clark", "--json", "OUT"}, "stdin.obj", "stdout.json", ""},
       {{"fit", "./cube.obj", "--targets", "IN", "-s", "catmull-clark", "-o", "OUT"},
        "targets.csv",
        "stdout.obj",
@@ -242,7 +242,7 @@ TEST_F(CliPipes, WhatNoFirstByteTellsNeedsAFormat) {
   const Outcome without = piped({"info", "-"}, "8 6 0\n");
   expect_failure(without, 3, {"/dev/stdin: its first bytes do not tell its format", "--format"});
   expect_failure(piped({"info", "-", "--format", "off"}, "8 6 0\n"), 3, {"/dev/stdin.off"});
-  expect_failure(piped({"info", "-", "--format", "obj"}, "call nothing.obj\n"), 3, {"/dev/stdin.obj", "no faces"});
+  expect_failure(piped({"info", "-", "--format", "obj"}, "call nothing.obj\n"), 3, {"/dev/stdin.obj", "no vertices"});
 }
 
 TEST_F(CliPipes, MistakesAreToldBeforeAnyWork) {

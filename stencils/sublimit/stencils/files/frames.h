@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "sublimit/mesh/mesh.h"
+#include "sublimit/stencils/files/frame_files.h"
 
 namespace sublimit {
 
