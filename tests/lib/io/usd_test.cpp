@@ -300,11 +300,81 @@ TEST(Usd, LayersAreComposedByTheirStrength) {
   EXPECT_EQ(mesh.materials.names, Names{"paint"});  // a path of the asset is one of the scene
   EXPECT_EQ(mesh.warnings, Names{});
 
-  directory.write("missing.usda", layer(square_prim("a") + "def \"b\" ( references = [@none.usda@, </nowhere>] ) { }"));
+  directory.write("missing.usda",
+                  usd_layer(square_prim("a") + "def \"b\" ( references = [@none.usda@, </nowhere>] ) { }"));
   const Mesh rest = read_mesh(directory / "missing.usda");
   ASSERT_EQ(rest.warnings.size(), 2u);
   EXPECT_NE(rest.warnings[0].find("missing.usda:9: 'none.usda' is not there"), std::string::npos) << rest.warnings[0];
   EXPECT_NE(rest.warnings[1].find("/nowhere"), std::string::npos);
+}
+
+// What exporters write around a mesh, by the facts of their files: Blender's, and the layers of Pixar's Kitchen Set, in
+// which an asset is a reference to a payload with a class, a variant of its model and a mesh of Catmull-Clark.
+TEST(Usd, ScenesAreReadAsProgramsExportThem) {
+  const Mesh blender = parse_usd(
+      "#usda 1.0\n(\n    defaultPrim = \"root\"\n    doc = \"Blender v4.1.0\"\n    metersPerUnit = 1\n    upAxis = \"Z\"\n)\n\n"
+      "def Xform \"root\" (\n    customData = {\n        dictionary Blender = {\n            bool generated = 1\n        }\n    }\n)\n{\n"
+      "    def Xform \"Plane\"\n    {\n        custom string userProperties:blender:object_name = \"Plane\"\n"
+      "        float3 xformOp:rotateXYZ = (90, -0, 0)\n        float3 xformOp:scale = (2, 2, 2)\n"
+      "        double3 xformOp:translate = (0, 0, 5)\n"
+      "        uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:rotateXYZ\", \"xformOp:scale\"]\n\n"
+      "        def Mesh \"Plane\" (\n            active = true\n            prepend apiSchemas = [\"MaterialBindingAPI\"]\n        )\n        {\n"
+      "            uniform bool doubleSided = 1\n            float3[] extent = [(-1, -1, 0), (1, 1, 0)]\n"
+      "            int[] faceVertexCounts = [4]\n            int[] faceVertexIndices = [0, 1, 3, 2]\n"
+      "            rel material:binding = </root/_materials/Material_001>\n"
+      "            normal3f[] normals = [(0, 0, 1), (0, 0, 1), (0, 0, 1), (0, 0, 1)] (\n                interpolation = \"faceVarying\"\n            )\n"
+      "            point3f[] points = [(-1, -1, 0), (1, -1, 0), (-1, 1, 0), (1, 1, 0)]\n"
+      "            bool[] primvars:sharp_face = [1] (\n                interpolation = \"uniform\"\n            )\n"
+      "            texCoord2f[] primvars:UVMap = [(0, 0), (1, 0), (1, 1), (0, 1)] (\n                interpolation = \"faceVarying\"\n            )\n"
+      "            uniform token subdivisionScheme = \"none\"\n            custom string userProperties:blender:data_name = \"Plane\"\n"
+      "        }\n    }\n\n    def Scope \"_materials\"\n    {\n        def Material \"Material_001\"\n        {\n"
+      "            token outputs:surface.connect = </root/_materials/Material_001/Principled_BSDF.outputs:surface>\n\n"
+      "            def Shader \"Principled_BSDF\"\n            {\n                uniform token info:id = \"UsdPreviewSurface\"\n"
+      "                color3f inputs:diffuseColor = (0.8, 0.1, 0.1)\n                token outputs:surface\n            }\n        }\n    }\n\n"
+      "    def DomeLight \"env_light\"\n    {\n        float inputs:intensity = 1\n        asset inputs:texture:file = @./textures/color_0C0C0C.exr@\n    }\n}\n",
+      "plane.usda");
+  EXPECT_EQ(blender.objects.names, Names{"root/Plane/Plane"});
+  EXPECT_EQ(blender.materials.names, Names{"Material_001"});
+  EXPECT_EQ(blender.warnings, Names{});
+  EXPECT_EQ(blender.scheme, "");
+  ASSERT_EQ(blender.face_varying.size(), 1u);
+  EXPECT_EQ(blender.face_varying[0].name, "UVMap");
+  EXPECT_EQ(Eigen::RowVector3d(blender.positions.row(2)), Eigen::RowVector3d(-2, 0, 7));
+
+  const TemporaryDirectory directory;
+  std::filesystem::create_directories(directory / "assets/Cup");
+  directory.write(
+      "Kitchen.usda",
+      usd_layer(
+          "(\n    defaultPrim = \"Kitchen\"\n)\n\ndef Xform \"Kitchen\" (\n    kind = \"assembly\"\n)\n{\n"
+          "    def Xform \"Props\" (\n        kind = \"group\"\n    )\n    {\n"
+          "        def \"Cup_1\" (\n            add references = @./assets/Cup/Cup.usda@\n            variants = {\n"
+          "                string modelingVariant = \"Tall\"\n            }\n        )\n        {\n"
+          "            double3 xformOp:translate = (10, 0, 0)\n"
+          "            uniform token[] xformOpOrder = [\"xformOp:translate\"]\n        }\n"
+          "        def \"Cup_2\" (\n            add references = @./assets/Cup/Cup.usda@\n        )\n        {\n        }\n    }\n}\n"));
+  directory.write(
+      "assets/Cup/Cup.usda",
+      usd_layer(
+          "(\n    defaultPrim = \"Cup\"\n)\n\nclass \"_class_Cup\"\n{\n}\n\ndef Xform \"Cup\" (\n"
+          "    add inherits = </_class_Cup>\n    kind = \"component\"\n    payload = @./Cup_payload.usda@</Cup>\n"
+          "    variants = {\n        string modelingVariant = \"Short\"\n    }\n    add variantSets = \"modelingVariant\"\n)\n{\n"
+          "    variantSet \"modelingVariant\" = {\n        \"Short\" {\n        }\n        \"Tall\" {\n            over \"Geom\"\n            {\n"
+          "                float3 xformOp:scale = (1, 1, 3)\n"
+          "                uniform token[] xformOpOrder = [\"xformOp:scale\"]\n            }\n        }\n    }\n}\n"));
+  directory.write(
+      "assets/Cup/Cup_payload.usda",
+      usd_layer("def Xform \"Cup\"\n{\n    def Xform \"Geom\"\n    {\n        def Mesh \"cup\"\n        {\n"
+                "            int[] faceVertexCounts = [4]\n            int[] faceVertexIndices = [0, 1, 2, 3]\n"
+                "            point3f[] points = [(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]\n"
+                "            color3f[] primvars:displayColor = [(0.5, 0.25, 1)]\n        }\n    }\n}\n"));
+  const Mesh kitchen = read_mesh(directory / "Kitchen.usda");
+  EXPECT_EQ(kitchen.warnings, Names{});
+  EXPECT_EQ(kitchen.scheme, "catmull-clark");
+  EXPECT_EQ(kitchen.objects.names, (Names{"Kitchen/Props/Cup_1/Geom/cup", "Kitchen/Props/Cup_2/Geom/cup"}));
+  EXPECT_EQ(Eigen::RowVector3d(kitchen.positions.row(1)), Eigen::RowVector3d(11, 0, 3));  // the tall one
+  EXPECT_EQ(Eigen::RowVector3d(kitchen.positions.row(5)), Eigen::RowVector3d(1, 0, 1));
+  EXPECT_EQ(kitchen.face_values[1].values, (std::vector<double>{0.25, 0.25}));
 }
 
 TEST(Usd, CirclesOfReferencesEnd) {
@@ -502,7 +572,7 @@ TEST(Usd, ObjectsArePrimsWhereTheyShareNoVertex) {
 }
 
 TEST(Usd, SamplesInTimeAreFrames) {
-  const std::string text = layer(
+  const std::string text = usd_layer(
       "def Mesh \"a\" {\n point3f[] points.timeSamples = { 2: [(0, 0, 2), (1, 0, 2), (0, 1, 2)],\n"
       " -1: [(0, 0, -1), (1, 0, -1), (0, 1, -1)] }\n int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2] }");
   UsdStage stage(text, "a.usda");
@@ -527,7 +597,7 @@ TEST(Usd, SamplesInTimeAreFrames) {
     EXPECT_EQ(Eigen::RowVector3d(points.row(5)), Eigen::RowVector3d(1, 1, 0));
   }
   EXPECT_EQ(frames.positions(0), read_mesh(directory / "a.usda").positions);
-  const std::string other = layer(
+  const std::string other = usd_layer(
       "def Mesh \"a\" {\n point3f[] points.timeSamples = { 0: [(0, 0, 2), (1, 0, 2), (0, 1, 2)],\n"
       " 1: [(0, 0, -1)] }\n int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2] }");
   UsdStage changing(other, "a.usda");
