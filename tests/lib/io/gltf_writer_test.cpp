@@ -27,7 +27,7 @@ namespace sublimit::testing {
 namespace {
 
 /// Two triangles with their normals and texture coordinates.
-Mesh square() {
+Mesh plate() {
   Mesh mesh;
   mesh.positions = (Points(4, 3) << 0, 0, 0.1, 1, 0, 0, 1, 1, -0.3, 0, 1, 0).finished();
   mesh.normals = (Points(4, 3) << 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1).finished();
@@ -60,7 +60,7 @@ std::vector<float> floats(const Points& rows) { return {rows.data(), rows.data()
 
 TEST(Glb, KeepsItsDigitsFarFromTheOrigin) {
   const TemporaryDirectory directory;
-  Mesh mesh = square();
+  Mesh mesh = plate();
   mesh.positions.rowwise() += Eigen::RowVector3d(1e7, -2e7, 1e7);
   write_glb(directory / "far.glb", mesh);
   const tinygltf::Model model = read_back(directory / "far.glb");
@@ -74,11 +74,11 @@ TEST(Glb, KeepsItsDigitsFarFromTheOrigin) {
 
 TEST(Glb, ReadsBackInTinyGltf) {
   const TemporaryDirectory directory;
-  const Mesh mesh = square();
-  write_glb(directory / "square.glb", mesh);
-  const tinygltf::Model model = read_back(directory / "square.glb");
+  const Mesh mesh = plate();
+  write_glb(directory / "plate.glb", mesh);
+  const tinygltf::Model model = read_back(directory / "plate.glb");
   ASSERT_EQ(model.nodes.size(), 1u);
-  EXPECT_EQ(model.nodes[0].name, "square");
+  EXPECT_EQ(model.nodes[0].name, "plate");
   EXPECT_EQ(model.scenes.at(size_t(model.defaultScene)).nodes, std::vector<int>{0});
   const tinygltf::Primitive& primitive = model.meshes.at(size_t(model.nodes[0].mesh)).primitives.at(0);
   EXPECT_EQ(primitive.mode, TINYGLTF_MODE_TRIANGLES);
@@ -105,7 +105,7 @@ TEST(Glb, RefusesWhatTheFormatHasNot) {
   const TemporaryDirectory directory;
   const auto path = directory / "a.glb";
   const auto refused = [&](const auto& change, const std::string& what) {
-    Mesh mesh = square();
+    Mesh mesh = plate();
     change(mesh);
     expect_error<InvalidMesh>([&] { write_glb(path, mesh); }, {"a.glb: ", what});
     expect_error<InvalidMesh>([&] { write_gltf(path, mesh); }, {"a.glb: ", what});
@@ -347,7 +347,7 @@ TEST(Glb, ObjectsAreNodesAndMaterialsPrimitivesInTinyGltf) {
 }
 
 TEST(Glb, WhatAFileChangesIsTold) {
-  Mesh mesh = square();
+  Mesh mesh = plate();
   mesh.vertex_values = {{"red", {0, 1.5, 0, -1}},
                         {"green", {0, 1, 0.5, 1}},
                         {"blue", {0, 1, 0, 1}},
@@ -373,7 +373,7 @@ TEST(Glb, WhatAFileChangesIsTold) {
 
 // Two values of one name, and one of the name that numbers of vertices have: each has an attribute.
 TEST(Glb, ValuesOfOneNameHaveAttributesOfTheirOwn) {
-  Mesh mesh = square();
+  Mesh mesh = plate();
   mesh.vertex_values = {{"heat", {0, 1, 2, 3}, ValueType::float32},
                         {"heat", {4, 5, 6, 7}, ValueType::float32},
                         {"VERTEX", {8, 9, 10, 11}, ValueType::float32},
@@ -399,7 +399,7 @@ TEST(Glb, FilesAreTheSameForAnyNumberOfThreads) {
 }
 
 TEST(SplitMesh, CutsWhereValuesOrNormalsDiffer) {
-  Mesh mesh = square();
+  Mesh mesh = plate();
   mesh.texture.resize(0, 2);
   const SplitMesh whole = split_mesh(mesh);
   EXPECT_EQ(whole.sources, (std::vector<Index>{0, 1, 2, 3}));
