@@ -392,6 +392,8 @@ TEST(Gltf, WrongNumbersAreErrorsThatNameThePlace) {
   expect("VEC3", "VEC9", "accessors[0].type: 'VEC9'; ");
   expect("VEC3", "VEC2", "accessors[0]: POSITION should have 3 columns");
   expect("5123", "5126", "accessors[1]: ");
+  for (const char* const type : {"5120", "5122"})
+    expect("5123", type, "accessors[1]: indices should be whole numbers without sign, one a row");
   expect("\"bufferView\":0", "\"bufferView\":7",
          "accessors[0].bufferView: 7 is out of range; the file has 2 buffer views");
   expect("\"bufferView\":0,", "", "accessors[0]: it has no 'bufferView'");

@@ -125,8 +125,9 @@ class MeshReader {
     if (const std::int64_t indices = object.index("indices", accessors, "accessors"); indices >= 0) {
       primitive.indices.emplace(file_, indices);
       if (primitive.indices->columns() != 1 || primitive.indices->is_normalized() ||
-          primitive.indices->type() == GltfType::float32)
-        throw FormatError(primitive.indices->place() + ": indices should be whole numbers, one a row");
+          (primitive.indices->type() != GltfType::uint8 && primitive.indices->type() != GltfType::uint16 &&
+           primitive.indices->type() != GltfType::uint32))
+        throw FormatError(primitive.indices->place() + ": indices should be whole numbers without sign, one a row");
     }
     return primitive;
   }
