@@ -188,7 +188,8 @@ std::string first_bytes(const StandardFile& file) {
 }
 
 /// The name that an input has from here on.
-std::string opened_name(const CLI::App& command, const StreamArgument& input, const std::string& extension, bool quiet) {
+std::string opened_name(const CLI::App& command, const StreamArgument& input, const std::string& extension,
+                        bool quiet) {
   const StandardFile& file = input.file;
   check_standard_stream(file.descriptor);
   if (!is_whole_file(file)) keep_in_memory(file, quiet);

@@ -26,6 +26,7 @@ class LoopCount {
     progress_->blocks = blocks;
     ++progress_->loops;
   }
+  /// Counts a block that is done.
   void add() const noexcept {
     if (progress_) progress_->done.fetch_add(1, std::memory_order_relaxed);
   }

@@ -40,8 +40,8 @@ inline std::string read_file(const std::filesystem::path& path,
   std::size_t size = 0;
   try {
     // One byte more than the size, so that the end of the file shows without growing; /proc and pipes say 0.
-    bytes.resize(std::min(
-        most + 1, S_ISREG(status.st_mode) && status.st_size > 0 ? std::size_t(status.st_size) + 1 : std::size_t{1} << 16));
+    bytes.resize(std::min(most + 1, S_ISREG(status.st_mode) && status.st_size > 0 ? std::size_t(status.st_size) + 1
+                                                                                  : std::size_t{1} << 16));
     for (;;) {
       const ssize_t got = ::read(file.number, bytes.data() + size, bytes.size() - size);
       if (got < 0 && errno == EINTR) continue;

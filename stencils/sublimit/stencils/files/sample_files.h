@@ -81,6 +81,7 @@ class SampleWriter {
   /// @param found  of order `columns.order()`, with normals
   void write(std::span<const Place> samples, const LimitSamples& found);
   void commit() { file_.commit(); }
+  /// Returns true if the reader of standard output has closed it.
   bool is_dropped() const { return file_.is_dropped(); }
 
  private:

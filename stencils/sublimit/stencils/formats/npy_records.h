@@ -38,6 +38,7 @@ class NpyRows {
   /// @throws FormatError  not an .npy file of rows; a damaged one
   explicit NpyRows(const std::filesystem::path& path);
 
+  /// Returns the number of rows.
   std::int64_t num_rows() const { return num_rows_; }
   /// Returns the names of columns; empty texts if the file names none.
   std::vector<std::string> columns() const;

@@ -32,6 +32,7 @@ class RowFile {
     });
     num_records_ += count;
   }
+  /// Writes what is left; the file appears under its name.
   void commit();
   /// Returns true if the reader of standard output has closed it.
   bool is_dropped() const { return file_.is_dropped(); }
