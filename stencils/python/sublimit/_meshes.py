@@ -352,7 +352,7 @@ class Mesh:
 
         Parameters
         ----------
-        path : path that ends in .obj, which holds the tags too, .ply, .off or .stl
+        path : path that ends in .obj, which holds the tags too, .ply, .off, .stl, .glb, .gltf, .usda or .usdz
 
         Raises
         ------
@@ -413,7 +413,7 @@ def read(path: str | os.PathLike[str], *, sidecar: str | os.PathLike[str] | None
 
     Parameters
     ----------
-    path : path that ends in .obj, which may have tags, .ply, .off or .stl, each also compressed as .gz
+    path : path that ends in .obj, which may have tags, .ply, .off, .stl, .glb, .gltf, .usda or .usdz, each also compressed as .gz
     sidecar : path of the JSON file, or ``"none"`` (default: the path with the extension .json, if that file has tags)
 
     Raises

@@ -175,7 +175,7 @@ const std::vector<Field>& fields() {
        [](const Mesh& a, const Mesh& b) { return same(a.vertex_values, b.vertex_values); }},
       {face_values,
        [](Mesh& m) {
-         m.face_values = {{.name = "part", .values = {1, 2, 3, 4, 5, 6}, .type = ValueType::int16}};
+         m.face_values = {{.name = "part", .values = {1, 2, 3, 4, 5, 6}, .type = ValueType::int32}};
        },
        [](const Mesh& a, const Mesh& b) { return same(a.face_values, b.face_values); }},
       {face_colours, [](Mesh& m) { m.face_values = colour(m.num_faces()); },
