@@ -218,7 +218,7 @@ TEST(LimitMemory, LargeFacesAreRefusedBeforeTheyTakeIt) {
   limit_memory(1e7);  // 500 * 500 * 48 is 1.2e7
   expect_error<ResourceError>(
       [&] { (void)limit_matrices(levels, cache); },
-      {"limits of 500 vertices in faces of up to 500 corners take about 11.9 MB", "cut large faces, or refine first"});
+      {"limits of 500 vertices in faces of up to 500 corners take about 12.0 MB", "cut large faces, or refine first"});
   limit_memory(2e7);
   EXPECT_EQ(limit_matrices(levels, cache).position.rows(), 500);
   limit_memory(std::numeric_limits<double>::infinity());

@@ -83,7 +83,7 @@ class ObjReader {
   }
 
   void read_vertex() {
-    make_room(coordinates_.size() == coordinates_.capacity());
+    make_room(coordinates_.size() + 3 > coordinates_.capacity());
     for (const char* const what : {"coordinate x", "coordinate y", "coordinate z"}) {
       coordinates_.push_back(scanner_.finite(scanner_.token(), what));
     }
