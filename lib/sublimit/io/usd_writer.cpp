@@ -405,14 +405,14 @@ class UsdWriter {
     return usd_metadata(all, indent);
   }
 
-  void write(const Node& node, const std::string& indent) {
+  void write(const Node& node, const std::string& indent, bool is_first = false) {
     const Mesh* const mesh = node.part < 0 ? nullptr : parts_.empty() ? &mesh_ : &parts_[std::size_t(node.part)].mesh;
     const bool bound = mesh && !mesh->materials.of_face.empty();
-    out_.write("\n" + indent + "def " + (mesh ? "Mesh" : "Xform") + " \"" + node.identifier + "\"" +
+    out_.write((is_first ? "" : "\n") + indent + "def " + (mesh ? "Mesh" : "Xform") + " \"" + node.identifier + "\"" +
                shown(node.identifier, node.name, bound ? "prepend apiSchemas = [\"MaterialBindingAPI\"]" : "", indent) +
                "\n" + indent + "{\n");
     if (mesh) write_mesh(*mesh, indent + "    ");
-    for (const Node& child : node.children) write(child, indent + "    ");
+    for (const Node& child : node.children) write(child, indent + "    ", !mesh && &child == &node.children.front());
     out_.write(indent + "}\n");
   }
 

@@ -9,6 +9,7 @@
 #include "sublimit/stencils/formats/formats.h"
 #include "sublimit/sublimit.h"
 #include "support/common.h"
+#include "support/facts.h"
 
 namespace sublimit::cli {
 namespace {
@@ -46,18 +47,28 @@ int run(const FlattenJob& job) {
   const bool all = flat == std::ssize(made.meshes);
   for (const FlattenedScene::FlatMesh& mesh : made.meshes)
     if (!mesh.why_not.empty()) fmt::print(stderr, "sublimit: {}: left as it is: {}\n", mesh.path, mesh.why_not);
-  if (job.common.quiet) return all ? 0 : 1;
   constexpr std::size_t most_warnings = 20;
-  for (std::size_t i = 0; i < std::min(made.warnings.size(), most_warnings); ++i)
-    fmt::print(stderr, "sublimit: warning: {}\n", made.warnings[i]);
-  if (made.warnings.size() > most_warnings)
-    fmt::print(stderr, "sublimit: warning: and {} more\n", made.warnings.size() - most_warnings);
-  if (made.meshes.empty())
-    fmt::print(stderr, "sublimit: note: {}: no mesh with a scheme that is seen; nothing to flatten\n", job.common.mesh);
+  if (!job.common.quiet) {
+    for (std::size_t i = 0; i < std::min(made.warnings.size(), most_warnings); ++i)
+      fmt::print(stderr, "sublimit: warning: {}\n", made.warnings[i]);
+    if (made.warnings.size() > most_warnings)
+      fmt::print(stderr, "sublimit: warning: and {} more\n", made.warnings.size() - most_warnings);
+    if (made.meshes.empty())
+      fmt::print(stderr, "sublimit: note: {}: no mesh with a scheme that is seen; nothing to flatten\n",
+                 job.common.mesh);
+  }
   double bound = 0;
   for (const FlattenedScene::FlatMesh& mesh : made.meshes) bound = std::max(bound, mesh.bound);
-  fmt::print("{}: {} of {} meshes with a scheme are {} triangles, at most {} from their limits\n", job.output, flat,
-             made.meshes.size(), triangles, format_number(bound));
+  Facts facts("flatten");
+  facts.say(
+      "{output}: {flat} of {meshes} meshes with a scheme are {triangles} triangles, at most {bound} from their "
+      "limits\n",
+      {{"output", job.output},
+       {"flat", flat},
+       {"meshes", made.meshes.size()},
+       {"triangles", triangles},
+       {"bound", bound}});
+  facts.print(job.common);
   return all ? 0 : 1;
 }
 
@@ -82,6 +93,7 @@ Command add_flatten(CLI::App& app) {
   command->add_option("--max-triangles", job->most, "Stop if a mesh needs more (default 16777216)")
       ->check(CLI::Range(1, std::numeric_limits<Index>::max()));
   add_run(*command, job->common);
+  add_json(*command, job->common);
   command->footer(
       "Examples:\n"
       "  sublimit flatten scene.usda -o flat.usda\n"

@@ -40,6 +40,7 @@ const std::vector<Role>& roles() {
       {nullptr, "TABLE", "a table of `sublimit bake`, {}", {tables}},
       {"sublimit-mpi", "POINTS", "points of the table's cage, {}", {mesh_parts, arrays}},
       {nullptr, "POINTS", "points of the table's cage, {}", {meshes, rows, arrays}, {recipes}},
+      {nullptr, "SCENE", "a scene of USD, {}", {scenes}, {meshes}},  // an extension tells more than first bytes
       {nullptr, "RECIPE", "recipes, {}", {recipes}},
       {nullptr, "FIELD", "a field, {}", {recipes}},
       {"sublimit-mpi", "MESH", "a control mesh, {}", {mesh_parts}},
