@@ -379,7 +379,9 @@ TEST(Flatten, OtherReadersHaveTheSameNumbers) {
       };
       EXPECT_EQ(sorted((*found)["positions"].get<std::vector<float>>(), 3), sorted(positions, 3));
       const auto read_texture = (*found)["texture"].get<std::vector<float>>();
-      if (reader == "three" || !read_texture.empty()) EXPECT_EQ(sorted(read_texture, 2), sorted(texture, 2));
+      if (reader == "three" || !read_texture.empty()) {
+        EXPECT_EQ(sorted(read_texture, 2), sorted(texture, 2));
+      }
       const auto normals = (*found)["normals"].get<std::vector<float>>();
       ASSERT_EQ(normals.size(), positions.size());
       ++readers;
