@@ -21,8 +21,11 @@ class GltfAccessor {
   /// @throws FormatError  rows that are not within their buffers, unknown types
   GltfAccessor(GltfFile& file, std::int64_t number);
 
+  /// Returns the number of rows.
   std::int64_t count() const { return count_; }
+  /// Returns the numbers of a row.
   int columns() const { return columns_; }
+  /// Returns the type of its numbers in the file.
   GltfType type() const { return type_; }
   /// Returns true for integers that stand for 0 to 1, or -1 to 1.
   bool is_normalized() const { return normalized_; }

@@ -21,6 +21,7 @@ class GltfFile {
 
   /// Returns the whole of the JSON.
   const GltfObject& root() const { return root_; }
+  /// Returns the name of the file, with which messages start.
   const std::string& name() const { return name_; }
   /// Returns the bytes of a buffer, `byteLength` of them.
   /// @throws FormatError, IoError, ResourceError  where it is not, or is too short

@@ -22,6 +22,7 @@ class GltfObject {
   /// @throws FormatError  no object
   GltfObject(const GltfJson& value, const std::string& file, std::string place);
 
+  /// Returns the name of the file.
   const std::string& file() const { return *file_; }
   /// Returns the start of messages about the object: "scene.glb: accessors[3]: ".
   std::string place() const;
@@ -30,6 +31,7 @@ class GltfObject {
   /// Returns where it is with its name, "meshes[2] 'wheel'".
   std::string in_words() const;
 
+  /// Returns true if there is such a field.
   bool has(const char* key) const { return find(key); }
   /// Returns a whole number of 0 to 2^53; `fallback` if the field is absent.
   std::int64_t integer(const char* key, std::int64_t fallback) const;
@@ -39,9 +41,14 @@ class GltfObject {
   /// Returns the number of an element of an array of the file, below `count`; -1 if the field is absent.
   /// @param array  name of the array, for messages
   std::int64_t index(const char* key, std::int64_t count, const char* array) const;
+  /// Returns a number; nothing if the field is absent.
   std::optional<double> number(const char* key) const;
+  /// Returns true or false; false if the field is absent.
   bool flag(const char* key) const;
+  /// Returns a text; `fallback` if the field is absent.
   std::string_view text(const char* key, std::string_view fallback) const;
+  /// Returns a text.
+  /// @throws FormatError  also if it is absent
   std::string_view text(const char* key) const;
   /// Returns numbers, `count` of them; none if the field is absent.
   std::vector<double> numbers(const char* key, std::size_t count) const;
@@ -59,7 +66,9 @@ class GltfObject {
   /// Returns texts of an array; none if the field is absent.
   std::vector<std::string> texts(const char* key) const;
 
+  /// Throws an error about the object.
   [[noreturn]] void fail(const std::string& what) const;
+  /// Throws an error about a field.
   /// @param key  the field that is wrong
   [[noreturn]] void fail(const char* key, const std::string& what) const;
 

@@ -33,6 +33,7 @@ class GltfLayout {
   /// @pre  `check_output` accepts the mesh
   explicit GltfLayout(const Mesh& mesh);
 
+  /// Returns the nodes, in the order in which faces first have their objects.
   const std::vector<GltfNode>& nodes() const { return nodes_; }
   /// Returns the vertices of the mesh that the file has, split where corners differ.
   const std::vector<SplitVertices::Vertex>& vertices() const { return vertices_; }
