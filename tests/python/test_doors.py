@@ -90,6 +90,7 @@ WORDS = [
     Row("*", "mem_limit", None, None, "of a process of its own"),
     Row("*", "json", None, None, "results are data"),
     Row("*", "report", None, None, "results are data"),
+    Row("*", "format", None, None, "standard input and output are files of the shell"),
     Row("*", "picture", None, None, "for people who look at files"),
     Row("*", None, "progress", None, "the program shows it on a terminal"),
     # Meshes and schemes.
@@ -159,6 +160,7 @@ WORDS = [
     Row("construct", None, "recipe", "recipe", "the program has RECIPE as an argument"),
     Row("implicit", "at", None, None, "values of a field, which is no mesh"),
     Row("implicit", None, "field", "field", "the program has FIELD as an argument"),
+    Row("apply", "frames", None, None, "of files and sequences of them; arrays are cut by the caller"),
     Row("apply", "gpu device", None, "device", "in C++ of the component eval_gpu"),
     Row("apply", "any_cage", None, None, "arrays have no faces to compare"),
     Row("apply", None, "points", "points", "the program has POINTS as an argument"),

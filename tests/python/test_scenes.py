@@ -36,7 +36,7 @@ def test_flatten_makes_triangles_of_a_scene(tmp_path: pathlib.Path) -> None:
     (told,) = made.meshes
     assert isinstance(told, sublimit.FlatMesh) and told.path == "/mesh" and told.why_not == ""
     triangles = sublimit.read(flat)
-    assert triangles.scheme == "" and len(triangles.faces) == told.triangles
+    assert triangles.scheme == "" and len(triangles.face_array) == told.triangles
     surface = sublimit.LimitSurface(mesh, "catmull-clark")
     near = surface.closest(triangles.points)
     assert np.max(near.distance) < 1e-6  # floats of the file

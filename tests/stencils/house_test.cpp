@@ -36,7 +36,7 @@ const Floor floors[] = {
     {"stencils/sublimit",
      {"json", "formats", "recipes", "files", "jobs", "patterns", "bake", "shards", "picture", "fit_jobs", "distributed",
       "gallery", "report"},
-     {"sublimit.h", "sublimit.cpp"},
+     {"sublimit.h", "sublimit.cpp", "flatten.cpp"},
      "report"},
 };
 

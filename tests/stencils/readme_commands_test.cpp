@@ -45,7 +45,8 @@ constexpr NotRun not_run[] = {
     {R"((mpirun -n \d+|srun) sublimit-mpi .*)", "distributed_tests run them, by other numbers too"},
     {R"(mpirun -n N build/\S+/bin/scale_bench .*)", "a benchmark: minutes, on a machine of its own"},
     {R"(#!/bin/bash\s+#SBATCH --nodes[^]*)", "the head of a script for srun"},
-    {R"(build/\S+/bin/fuzz_\w+)", "a place of a program; fuzz.obj, fuzz.mesh, fuzz.usd, fuzz.table and fuzz.recipe run them"},
+    {R"(build/\S+/bin/fuzz_\w+)",
+     "a place of a program; fuzz.obj, fuzz.mesh, fuzz.usd, fuzz.table and fuzz.recipe run them"},
 };
 
 /// Why a command line is not run; empty if it is.

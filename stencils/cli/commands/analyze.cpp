@@ -302,7 +302,7 @@ Command add_analyze(CLI::App& app) {
       "analyze", "Report how smooth the limit of a scheme or a mesh is, or how free-form shapes join");
   auto options = std::make_shared<AnalyzeOptions>();
   command->add_option("MESH", options->common.mesh,
-                      "A mesh, .obj, .ply, .off or .stl: how smooth its own limit is; an .obj of free-form curves and "
+                      "A mesh: how smooth its own limit is; an .obj of free-form curves and "
                       "surfaces or a .json of recipes, without -s: how they join; or a curve of Bezier pieces, .csv");
   command->add_option("-s,--scheme", options->common.scheme, "A scheme, or all");
   command->add_option("--valence", options->valences, "Valences, as in 3-12 or 3-8,12")->capture_default_str();

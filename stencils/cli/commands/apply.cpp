@@ -373,7 +373,7 @@ Command add_apply(CLI::App& app) {
   command
       ->add_option(
           "POINTS", options->points,
-          "Points of the cage: the vertices of an .obj, .ply, .off or .stl; the lines of a .csv; an .npy of vertices "
+          "Points of the cage: the vertices of a mesh; the lines of a .csv; an .npy of vertices "
           "x channels or frames x vertices x channels; pose.####.ply: a sequence of such files, # for each digit of "
           "the frame. Of rational free-form surfaces columns w x, w y, w z, w")
       ->required();

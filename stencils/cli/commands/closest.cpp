@@ -92,9 +92,8 @@ Command add_closest(CLI::App& app) {
   add_mesh(*command, options->common, false);
   add_json(*command, options->common);
   command
-      ->add_option(
-          "--points", options->points,
-          "Points: a .csv with the header x,y,z, an .npy of n x 3, or the vertices of an .obj, .ply, .off or .stl")
+      ->add_option("--points", options->points,
+                   "Points: a .csv with the header x,y,z, an .npy of n x 3, or the vertices of a mesh")
       ->required();
   command->add_option("--nearest", options->nearest, "K faces a point, each with its nearest place (default 1)");
   command->add_option("--radius", options->radius, "Leave out what is farther than that (default: nothing)");

@@ -251,9 +251,9 @@ Command add_fit(CLI::App& app) {
   add_mesh(*command, options->common, false);
   add_attributes(*command, options->common);
   add_json(*command, options->common);
-  command->get_option("MESH")->description(
-      "Control mesh: .obj (with tags), .ply, .off or .stl, or without -s free-form surfaces (.obj); MESH.json beside a mesh "
-      "overrides tags");
+  command->get_option("MESH")->description("Control mesh: " + all_formats().readers_in_words({contents::meshes}, "or") +
+                                           ", or without -s free-form surfaces (.obj); MESH.json beside a mesh "
+                                           "overrides tags");
   command->add_option("--targets", options->targets, "IN.csv: what the limit shall go through, see below");
   command->add_option("--cloud", options->cloud,
                       "Or points without order: a .csv with the header x,y,z[,weight], or the vertices of a mesh");

@@ -57,7 +57,8 @@ void add_mesh(CLI::App& command, Common& common, bool scheme_required) {
   add_mesh_options(command,
                    {common.mesh, common.scheme, common.boundary, common.creasing, common.triangles,
                     &common.face_varying, common.options, common.triangulate, common.no_creases},
-                   ".obj (with tags), .ply, .off or .stl, or without -s free-form shapes (.obj) or recipes (.json)",
+                   all_formats().readers_in_words({contents::meshes}, "or") +
+                       ", or without -s free-form shapes (.obj) or recipes (.json)",
                    scheme_required);
   command.add_flag("--orient", common.orient, "First turn faces so that winding is consistent, and tell which");
   command

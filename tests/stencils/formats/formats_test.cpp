@@ -37,6 +37,9 @@ class Samples {
     write_mesh(path("mesh.stl"), cube());
     write_mesh(path("mesh.glb"), cube());
     write_mesh(path("mesh.gltf"), cube());
+    Mesh prim = cube();
+    prim.scheme = "catmull-clark";
+    for (const char* const scene : {"mesh.usda", "mesh.usd", "mesh.usdz"}) write_mesh(path(scene), prim);
     directory_.write("polygon.csv", "x,y,z\n0,0,0\n1,0,0\n1,1,0\n");
     directory_.write("polygon.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n");
     directory_.write("places.csv", "face,u,v\n0,0.5,0.5\n");
@@ -116,15 +119,16 @@ TEST(AllFormats, AreWrittenAsRowsSay) {
   };
   const std::vector<Line> lines{
       {under({"refine", mesh, "-l", "1", "-o", "?"}), {meshes}},
-      {under({"refine", mesh, "-l", "1", "-o", out + ".obj", "--matrix", "?"}), {matrices}},
+      {under({"refine", mesh, "-l", "1", "-o", samples.path("other.obj"), "--matrix", "?"}), {matrices}},
       {{"refine", samples.path("polygon.csv"), "-l", "1", "-s", "chaikin", "--quiet", "-o", "?"}, {tangents, polygons}},
       {{"refine", samples.path("shape.obj"), "-l", "1", "--quiet", "-o", "?"}, {free_form, meshes}},
       {{"construct", samples.path("recipe.json"), "--quiet", "-o", "?"}, {free_form}},
       {{"apply", samples.path("table.safetensors"), mesh, "--quiet", "-o", "?"}, {meshes, arrays, contents::rows}},
-      {under({"sample", mesh, "--grid", "2", "-o", "?"}), {contents::rows}},
+      {under({"sample", mesh, "--grid", "2", "-o", "?"}), {contents::rows, arrays}},
       {under({"bake", mesh, "-l", "1", "-o", "?"}), {tables}},
       {{"export", samples.path("table.safetensors"), "--quiet", "-o", "?"}, {table_rows}},
       {under({"tessellate", mesh, "--chord", "10%", "-o", "?"}), {meshes, cells}},
+      {{"flatten", samples.path("mesh.usda"), "--chord", "10%", "--quiet", "-o", "?"}, {scenes, meshes}},
       {{"analyze", "-s", "bilinear", "--valence", "4", "--quiet", "-o", "?"}, {pages}},
       {{"analyze", "-s", "bilinear", "--valence", "4", "--quiet", "--picture", "?"}, {pictures}},
       {{"analyze", "-s", "bilinear", "--valence", "4", "--quiet", "--json", "?"}, {reports}},
@@ -166,7 +170,11 @@ TEST(AllFormats, AreReadAsRowsSay) {
     std::vector<std::string> files;  ///< one for each row that claims the content
   };
   const std::vector<Read> lines{
-      {{{"info", "?", "--quiet"}, {meshes}}, {"mesh.obj", "mesh.ply", "mesh.off", "mesh.stl", "mesh.glb", "mesh.gltf"}},
+      {{{"info", "?", "--quiet"}, {meshes}},
+       {"mesh.obj", "mesh.ply", "mesh.off", "mesh.stl", "mesh.glb", "mesh.gltf", "mesh.usda", "mesh.usd", "mesh.usdz"}},
+      {{{"flatten", "?", "--chord", "10%", "-o", samples.path("flat.usda"), "--quiet"}, {scenes}},
+       {"mesh.usda", "mesh.usd", "mesh.usdz"}},
+
       {{{"refine", "?", "-s", "chaikin", "-l", "1", "-o", csv, "--quiet"}, {polygons}}, {"polygon.csv", "polygon.obj"}},
       {{{"info", "?", "--quiet"}, {free_form}}, {"shape.obj"}},
       {{{"refine", "?", "-s", "nielson", "-l", "1", "-o", obj, "--quiet"}, {vertex_normals}}, {"octahedron.obj"}},
@@ -189,7 +197,7 @@ TEST(AllFormats, AreReadAsRowsSay) {
       ASSERT_TRUE(row);
       EXPECT_TRUE(claims(row->reads, line.contents));
       EXPECT_EQ(all_formats().recognized(read_file(samples.path(file)))->name, row->name);
-      given.insert(std::string(row->extensions[0]));
+      given.insert(std::filesystem::path(file).extension().string());
     }
     std::set<std::string> expected;
     for (const std::string& extension : all_formats().readers(line.contents)) expected.insert(extension);

@@ -32,6 +32,7 @@ class GltfLayout {
  public:
   /// @pre  `check_output` accepts the mesh
   explicit GltfLayout(const Mesh& mesh);
+  explicit GltfLayout(const Mesh&& mesh) = delete;
 
   /// Returns the nodes, in the order in which faces first have their objects.
   const std::vector<GltfNode>& nodes() const { return nodes_; }

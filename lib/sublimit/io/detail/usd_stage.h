@@ -53,6 +53,7 @@ struct UsdPrim {
   const UsdPrim* parent = nullptr;
   std::vector<Opinion> opinions = {};  ///< the strongest first
 
+  /// Returns the last name of the path.
   std::string_view name() const { return std::string_view(path).substr(path.rfind('/') + 1); }
   /// Returns the name that is shown (`displayName`), or else its own.
   std::string shown_name() const;
@@ -81,6 +82,7 @@ class UsdStage {
   /// Reads a scene from bytes; what it refers to beside itself is not read.
   UsdStage(std::string bytes, const std::string& name);
 
+  /// Returns the scene's first layer.
   const UsdLayer& root_layer() const { return *root_->layers.front(); }
   UsdStage(const UsdStage&) = delete;
   UsdStage& operator=(const UsdStage&) = delete;

@@ -55,7 +55,7 @@ void write_usd_list(RowWriter& out, const std::string& indent, std::int64_t coun
 }
 
 /// Appends a value of one number, or of several in parentheses.
-/// @param Number  float or double: the digits that are written
+/// @tparam Number  float or double: the digits that are written
 template <class Number, class Row>
 void append_usd_row(std::string& text, const Row& row) {
   if (row.size() > 1) text += '(';

@@ -11,7 +11,6 @@
 #include "sublimit/distributed/mesh/spread_readers.h"
 #include "sublimit/stencils/formats/formats.h"
 #include "sublimit/stencils/formats/sidecar.h"
-#include "sublimit/stencils/json/json_file.h"
 
 namespace sublimit {
 namespace {
@@ -30,7 +29,7 @@ void read_sidecar(const Ranks& ranks, const std::filesystem::path& path, SpreadM
   ranks.together([&] {
     if (!sidecar) throw IoError(path.string() + ": a sidecar that other ranks see is missing here");
     constexpr std::int64_t most = std::numeric_limits<Index>::max();
-    apply_sidecar_text(tags, read_json_text(*sidecar), sidecar->string(),
+    apply_sidecar_text(tags, read_sidecar(*sidecar), sidecar->string(),
                        MeshCounts{static_cast<Index>(std::min(most, mesh.vertices.size())),
                                   static_cast<Index>(std::min(most, mesh.faces.size()))});
     if (!tags.knot_intervals.empty())

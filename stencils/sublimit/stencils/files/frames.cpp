@@ -8,7 +8,6 @@
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/detail/standard_files.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/polygon_files.h"
 #include "sublimit/io/detail/usd_flat.h"
 #include "sublimit/io/read_mesh.h"
 #include "sublimit/stencils/formats/formats.h"
@@ -38,8 +37,8 @@ PointFile point_file(const std::filesystem::path& path) {
     Points points = mesh.positions;
     return {std::move(points), names_of_channels(3), std::move(mesh)};
   }
-  if (all_formats().reads(path, contents::polygons)) {
-    ControlPolygon read = read_polygon(path);
+  if (const FileFormat* const format = all_formats().reader(path, contents::polygons)) {
+    ControlPolygon read = format->parse_polygon(read_inflated(path), path.string(), false);
     std::vector<std::string> names =
         read.columns.empty() ? names_of_channels(read.points.cols()) : std::move(read.columns);
     return {std::move(read.points), std::move(names), {}};

@@ -9,7 +9,7 @@
 
 #include "sublimit/base/detail/format_number.h"
 #include "sublimit/base/error.h"
-#include "sublimit/io/detail/ply.h"
+#include "sublimit/io/read_mesh.h"
 #include "sublimit/stencils/files/sample_files.h"
 #include "sublimit/stencils/formats/csv_fields.h"
 #include "sublimit/stencils/formats/formats.h"
@@ -50,8 +50,12 @@ PlacedFaces read_placed_faces(const std::filesystem::path& path) {
     throw InvalidOption(path.string() + ": triangles with places are read from a " +
                         all_formats().readers_in_words({contents::vertex_values}, "or") +
                         "; `sublimit tessellate -o FILE.ply` writes it");
-  Mesh read = read_ply(path, properties);
-  const std::vector<Mesh::Values>& found = read.vertex_values;
+  Mesh read = read_mesh(path);
+  std::vector<Mesh::Values> found;
+  for (const std::string& name : properties) {
+    const auto values = std::ranges::find(read.vertex_values, name, &Mesh::Values::name);
+    if (values != read.vertex_values.end()) found.push_back(std::move(*values));
+  }
   if (found.size() != properties.size())
     throw FormatError(
         path.string() +

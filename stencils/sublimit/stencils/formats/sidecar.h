@@ -18,6 +18,7 @@
 // Every key may be left out. A key that is present replaces all tags of its kind.
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "sublimit/mesh/mesh.h"
@@ -34,6 +35,10 @@ std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& m
 ///                      position. The mesh is then as it was.
 /// @throws IoError      missing, unreadable
 void apply_sidecar(Mesh& mesh, const std::filesystem::path& path);
+
+/// Returns the text of a sidecar.
+/// @throws IoError  missing, unreadable;  ResourceError  longer than a job may take
+std::string read_sidecar(const std::filesystem::path& path);
 
 /// Numbers of elements of a mesh that is stored elsewhere.
 struct MeshCounts {
