@@ -262,7 +262,8 @@ void add_meshes(py::module_& m) {
             return std::make_shared<Mesh>(mesh.with_points(points(given)));
           },
           py::arg("points"))
-      .def("faults", [](const Mesh& mesh) { return faults(mesh); }, long_call)
+      .def(
+          "faults", [](const Mesh& mesh) { return faults(mesh); }, long_call)
       .def(
           "write", [](const Mesh& mesh, const std::filesystem::path& path) { write_mesh(path, mesh); }, py::arg("path"),
           long_call);
