@@ -282,7 +282,7 @@ def test_gltf_keeps_faces_colours_and_materials(name: str, grid: sublimit.Mesh, 
     grid.write(tmp_path / name)
     again = sublimit.read(tmp_path / name)
     assert np.array_equal(again.points, grid.points)
-    named = [{tuple(sorted(face)): material for face, material in zip(mesh.face_array, mesh.materials)} for mesh in (again, grid)]
+    named = [{tuple(sorted(face)): material for face, material in zip(mesh.face_array, mesh.materials or [])} for mesh in (again, grid)]
     assert named[0] == named[1] and set(named[0].values()) == {"m0", "m1", "m2"}
     for colour in COLOURS:
         assert np.array_equal(again.vertex_values[colour], np.asarray(grid.vertex_values[colour], np.float32))
