@@ -293,7 +293,7 @@ class LayerEditor {
     if (spec)
       insert(*spec, more);
     else
-      override(path, std::move(more));
+      override(path, more);
   }
 
   /// Returns the text with all that was asked for.
@@ -371,7 +371,7 @@ class LayerEditor {
   }
 
   /// Overrides a prim that the layer does not speak of, below the last one on its way that it has.
-  void override(const std::string& path, std::string statements) {
+  void override(const std::string& path, const std::string& statements) {
     std::string there = path;
     const UsdSpec* spec = nullptr;
     std::vector<std::string> names;

@@ -177,7 +177,8 @@ std::optional<std::string> UsdStage::bytes_of(const std::string& file, const Usd
   return std::nullopt;
 }
 
-void UsdStage::add_sublayers(UsdLayers& layers, std::shared_ptr<const UsdLayer> layer, std::vector<std::string>& open) {
+void UsdStage::add_sublayers(UsdLayers& layers, const std::shared_ptr<const UsdLayer>& layer,
+                             std::vector<std::string>& open) {
   if (std::ranges::find(open, layer->name) != open.end())
     throw FormatError(layer->place(layer->text) + "the layer is a sublayer of itself");
   open.push_back(layer->name);

@@ -106,7 +106,7 @@ class UsdStage {
 
   void open(std::string bytes, const std::string& name);
   const UsdLayers* layers_of(const std::string& file, const UsdLayer& from, std::string_view place);
-  void add_sublayers(UsdLayers& layers, std::shared_ptr<const UsdLayer> layer, std::vector<std::string>& open);
+  void add_sublayers(UsdLayers& layers, const std::shared_ptr<const UsdLayer>& layer, std::vector<std::string>& open);
   std::optional<std::string> bytes_of(const std::string& file, const UsdLayer& from, std::string_view place,
                                       std::string& name);
   void expand(const std::string& prim, Opinions site, std::vector<Site>& active, Opinions& out);
