@@ -30,7 +30,7 @@ def sources(root: pathlib.Path, pattern: str) -> list[pathlib.Path]:
     """Files of the sources from their root; nothing of builds or of git."""
     found = []
     for folder, folders, names in os.walk(root):
-        folders[:] = sorted(f for f in folders if not f.startswith(".") and f not in ("build", "__pycache__"))
+        folders[:] = sorted(f for f in folders if not f.startswith(".") and f not in ("build", "node_modules", "__pycache__"))
         for name in sorted(names):
             path = pathlib.Path(folder, name).relative_to(root)
             if path.match(pattern):

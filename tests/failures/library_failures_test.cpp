@@ -146,7 +146,8 @@ class LackOfMemory : public ::testing::Test {
 };
 
 TEST_F(LackOfMemory, InFilesOfMeshesIsAnError) {
-  for (const char* name : {"mesh.obj", "mesh.ply", "mesh.off", "mesh.stl", "mesh.glb", "mesh.gltf"}) {
+  for (const char* name :
+       {"mesh.obj", "mesh.ply", "mesh.off", "mesh.stl", "mesh.glb", "mesh.gltf", "mesh.usda", "mesh.usdz"}) {
     const std::filesystem::path path = directory_ / name;
     const Mesh mesh = quads_;
     expect_survives_failures(std::string("write ") + name, [&] {

@@ -55,6 +55,7 @@ const std::vector<Use>& uses() {
       {"tessellate", "tessellate <cube.obj -s catmull-clark --chord 5% -o >out.ply --places >places.csv"},
       {"tessellate_glb", "tessellate <cube.obj -s catmull-clark --chord 5% -o >out.glb", {}, true},
       {"tessellate_vtu", "tessellate <cube.obj -s catmull-clark --chord 5% -o >out.vtu", {}, true},
+      {"flatten", "flatten <scene.usda --chord 10% -o >out.usda"},
       {"step", "step <spindle.json -o >out.step --report >out.json", {"out.step", "out.json"}, true},
       {"step_mesh", "step <cube.obj -s catmull-clark -o >out.brep", {}, true},
       {"bake", "bake <cube.obj -s catmull-clark -l 2 -o >out.safetensors"},
@@ -86,6 +87,10 @@ const std::vector<Use>& uses() {
 class Inputs {
  public:
   Inputs() {
+    directory_.write(
+        "scene.usda",
+        "#usda 1.0\ndef Mesh \"m\"\n{\n    point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 1)]\n"
+        "    int[] faceVertexCounts = [4]\n    int[] faceVertexIndices = [0, 1, 2, 3]\n}\n");
     directory_.write("cube.obj",
                      "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
                      "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nt crease 2/1/0 0 1 2.5\n");

@@ -70,7 +70,8 @@ inline std::vector<std::string> documents() {
   std::vector<std::string> names;
   for (std::filesystem::recursive_directory_iterator at(root), end; at != end; ++at) {
     const std::string name = at->path().filename().string();
-    if (at->is_directory() && (name == "build" || name.starts_with("."))) at.disable_recursion_pending();
+    if (at->is_directory() && (name == "build" || name == "node_modules" || name.starts_with(".")))
+      at.disable_recursion_pending();
     if (at->path().extension() == ".md") names.push_back(at->path().lexically_relative(root).string());
   }
   std::ranges::sort(names);

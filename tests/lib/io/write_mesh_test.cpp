@@ -365,7 +365,8 @@ TEST(WriteMesh, PlacesThatCannotBeWrittenAreNamed) {
   directory.write("file", "");
   const Mesh mesh = random_output(11, 10, 4);
   for (const char* const name : {"a.dae", "a", "a.obj.gz"}) {
-    expect_error<InvalidOption>([&] { write_mesh(directory / name, mesh); }, {name, "as .obj, .ply, .off or .stl"});
+    expect_error<InvalidOption>([&] { write_mesh(directory / name, mesh); },
+                                {name, "as .obj, .ply, .off, .stl, .glb, .gltf, .usda, .usd or .usdz"});
   }
   expect_error<IoError>([&] { write_mesh(directory / "no/a.obj", mesh); }, {"no/a.obj: cannot write"});
   expect_error<IoError>([&] { write_mesh(directory / "file/a.ply", mesh); }, {"file/a.ply: cannot write"});
@@ -408,8 +409,9 @@ TEST(ReadMesh, ChoosesByExtensionInEitherCase) {
 TEST(ReadMesh, SaysWhatItCannotRead) {
   const TemporaryDirectory directory;
   directory.write("a.dae", "solid");
-  expect_error<FormatError>([&] { read_mesh(directory / "a.dae"); },
-                            {"a.dae: unknown kind of mesh '.dae'", ".obj, .ply, .off and .stl"});
+  expect_error<FormatError>(
+      [&] { read_mesh(directory / "a.dae"); },
+      {"a.dae: unknown kind of mesh '.dae'", ".obj, .ply, .off, .stl, .glb, .gltf, .usda, .usd and .usdz"});
   expect_error<IoError>([&] { read_mesh(directory / "b.dae"); }, {"b.dae: cannot read", "No such file"});
   expect_error<IoError>([&] { read_mesh(directory.path()); }, {"Is a directory"});
 }

@@ -272,8 +272,9 @@ TEST(CliRefine, TagsAreWrittenUnlessNotWanted) {
   EXPECT_EQ(lines(out, "t").size(), 0u);
   const Outcome told =
       expect_done(sublimit({"refine", path, "-s", "catmull-clark", "-l", "1", "-o", ply.string()}), true);
-  EXPECT_EQ(told.err, "sublimit: note: " + ply.string() +
-                          ": a PLY file has no place for creases; written as .obj the mesh keeps them\n");
+  EXPECT_EQ(told.err,
+            "sublimit: note: " + ply.string() +
+                ": a PLY file has no place for creases; written as .obj, .usda, .usd or .usdz the mesh keeps them\n");
   EXPECT_EQ(read_mesh(ply).positions, read_mesh(out).positions);
   expect_done(sublimit({"refine", path, "-s", "catmull-clark", "-l", "1", "-o", ply.string(), "--no-tags"}));
 }

@@ -20,7 +20,7 @@ struct Exported {
 
 /// A valid file of a job, and its report.
 Exported exported(const TemporaryDirectory& directory, const std::string& file) {
-  const std::string out = (directory / "o.step").string(), report = (directory / "r.json").string();
+  const std::string out = (directory / "o.step").string(), report = (directory / "report.json").string();
   expect_done(sublimit({"step", file, "-o", out, "--report", report}));
   Exported result{read_file(out), nlohmann::json::parse(read_file(report))};
   EXPECT_TRUE(result.text.starts_with("ISO-10303-21;"));
