@@ -29,7 +29,7 @@ void read_sidecar(const Ranks& ranks, const std::filesystem::path& path, SpreadM
   ranks.together([&] {
     if (!sidecar) throw IoError(path.string() + ": a sidecar that other ranks see is missing here");
     constexpr std::int64_t most = std::numeric_limits<Index>::max();
-    apply_sidecar_text(tags, read_sidecar(*sidecar), sidecar->string(),
+    apply_sidecar_text(tags, sidecar_text(*sidecar), sidecar->string(),
                        MeshCounts{static_cast<Index>(std::min(most, mesh.vertices.size())),
                                   static_cast<Index>(std::min(most, mesh.faces.size()))});
     if (!tags.knot_intervals.empty())

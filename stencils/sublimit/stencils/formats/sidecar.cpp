@@ -253,10 +253,10 @@ std::optional<std::filesystem::path> find_sidecar(const std::filesystem::path& m
   return has_key ? std::optional(path) : std::nullopt;
 }
 
-std::string read_sidecar(const std::filesystem::path& path) { return read_json_text(path); }
+std::string sidecar_text(const std::filesystem::path& path) { return read_json_text(path); }
 
 void apply_sidecar(Mesh& mesh, const std::filesystem::path& path) {
-  apply_sidecar_text(mesh, read_sidecar(path), path.string());
+  apply_sidecar_text(mesh, sidecar_text(path), path.string());
 }
 
 void apply_sidecar_text(Mesh& mesh, std::string_view text, std::string_view name,

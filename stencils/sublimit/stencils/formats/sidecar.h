@@ -38,7 +38,7 @@ void apply_sidecar(Mesh& mesh, const std::filesystem::path& path);
 
 /// Returns the text of a sidecar.
 /// @throws IoError  missing, unreadable;  ResourceError  longer than a job may take
-std::string read_sidecar(const std::filesystem::path& path);
+std::string sidecar_text(const std::filesystem::path& path);
 
 /// Numbers of elements of a mesh that is stored elsewhere.
 struct MeshCounts {
