@@ -147,6 +147,7 @@ WORDS = [
     Row("flatten", None, "scene", "scene", "the program has SCENE as an argument"),
     Row("step", "no_packing", "pack", "pack", "a flag of the shell can only be set"),
     Row("step", None, "face_names", "face_names", "the program has those of the file"),
+    Row("step", None, "face_values", None, "colours: the program has those of the file; Python writes names alone"),
     Row("step", None, "path", "path", "the program has --output"),
     Row("step", None, "patches", None, "Python has one argument for both"),
     Row("bake", "tessellation", "face_sizes face_vertices", "tessellation",

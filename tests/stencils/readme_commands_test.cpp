@@ -123,7 +123,7 @@ void expect_readable(const Path& file) {
   ASSERT_TRUE(std::filesystem::exists(file));
   ASSERT_FALSE(std::filesystem::is_empty(file));
   const std::string kind = file.extension().string();
-  if (kind == ".obj" || kind == ".ply") {
+  if (kind == ".obj" || kind == ".ply" || kind == ".usda" || kind == ".usdz") {
     const Mesh mesh = read_mesh(file);
     EXPECT_GT(mesh.num_faces(), 0);
     EXPECT_TRUE(mesh.positions.allFinite());
