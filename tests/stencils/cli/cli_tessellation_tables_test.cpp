@@ -155,7 +155,7 @@ TEST(CliTessellationTables, AreRefusedInClearWords) {
   places[7] = {5, 0.5, 1.5};
   refused_places({"off.ply", "vertex 7", "(0.5, 1.5)"});
   places[7] = {5, std::nan(""), 0};
-  refused_places({"off.ply", "vertex 7", "outside"});
+  refused_places({"off.ply", "place_u", "finite"});
   const std::string far = on.directory.write(
       "far.ply",
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"

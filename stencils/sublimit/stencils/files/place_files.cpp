@@ -57,6 +57,10 @@ PlacedFaces read_placed_faces(const std::filesystem::path& path) {
     if (values != read.vertex_values.end()) found.push_back(std::move(*values));
   }
   if (found.size() != properties.size())
+    for (const std::string& warning : read.warnings)  // numbers that are none are why one of them is left out
+      if (std::ranges::any_of(properties, [&](const std::string& name) { return warning.find(name) != warning.npos; }))
+        throw FormatError(warning);
+  if (found.size() != properties.size())
     throw FormatError(
         path.string() +
         ": its vertices have no place_face, place_u and place_v; `sublimit tessellate -o FILE.ply` writes "
