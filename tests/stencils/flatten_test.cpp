@@ -19,6 +19,7 @@
 #include "sublimit/stencils/formats/npy.h"
 #include "sublimit/sublimit.h"
 #include "support/expect_error.h"
+#include "support/gzip_bytes.h"
 #include "support/skip.h"
 #include "support/temporary_directory.h"
 
@@ -274,6 +275,14 @@ TEST(Flatten, OtherFormatsGetAllMeshesInTheWorld) {
   EXPECT_TRUE(same(0));
   (void)flatten(directory / "scene.usda", directory / "flat.glb", {.relative_chord = 0.01});
   EXPECT_EQ(read_file(directory / "flat.glb").substr(0, 4), "glTF");
+}
+
+TEST(CliFlatten, TakesCompressedScenes) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.write("scene.usda.gz", compressed(scene)).string(),
+                    out = (directory / "flat.usda").string();
+  expect_done(sublimit({"flatten", path, "--chord", "1%", "-o", out, "--quiet"}));
+  EXPECT_EQ(read_file(out), flattened(scene).text);
 }
 
 TEST(Flatten, WrongInputIsAnErrorAndLeavesNothing) {

@@ -41,7 +41,7 @@ inline constexpr Content polygons{"polygons", true};                   ///< read
 inline constexpr Content tangents{"polygons with tangents", true};     ///< polygons, with tangents and in any dimension
 inline constexpr Content free_form{"free-form curves, surfaces", true};  ///< read_free_form, write_free_form
 inline constexpr Content rows{"rows of numbers"};                        ///< lines of numbers below a header
-inline constexpr Content scenes{"scenes"};                               ///< `flatten`: meshes in a whole, which stays
+inline constexpr Content scenes{"scenes", true};                         ///< `flatten`: meshes in a whole, which stays
 inline constexpr Content cad{"CAD files"};                               ///< boundary models: faces with shared edges
 inline constexpr Content step{"STEP files"};  ///< of CAD files those of ISO 10303, which have names
 }  // namespace contents
