@@ -42,6 +42,7 @@ class Flattener {
         mesh_job({.scheme = from.mesh.scheme}, mesh_of(from, [](const std::string& path) { return path; }), from.place);
     // Values of vertices follow by their own interpolation.
     job_.mesh.vertex_values.clear();
+    warnings_.insert(warnings_.end(), from.mesh.warnings.begin(), from.mesh.warnings.end());
     for (const std::string& fault : faults(job_.mesh)) warnings_.push_back(from.place + fault);
   }
 
@@ -64,6 +65,7 @@ class Flattener {
  private:
   TessellationOptions options() const {
     const Points& points = from_.mesh.positions;
+    if (points.rows() == 0) throw InvalidMesh(from_.place + "it has no points");
     double chord = 0;
     if (options_.chord > 0) {
       const Eigen::Matrix3d linear = from_.to_world.topLeftCorner<3, 3>();

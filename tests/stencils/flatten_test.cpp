@@ -277,6 +277,21 @@ TEST(Flatten, OtherFormatsGetAllMeshesInTheWorld) {
   EXPECT_EQ(read_file(directory / "flat.glb").substr(0, 4), "glTF");
 }
 
+TEST(Flatten, MeshesWithoutPointsStayAndWarningsOfMeshesAreTold) {
+  const std::string empty = layer(
+      "def Mesh \"none\"\n{\n    point3f[] points = []\n    int[] faceVertexCounts = []\n"
+      "    int[] faceVertexIndices = []\n}\n");
+  const Flattened made = flattened(empty);
+  EXPECT_EQ(made.text, empty);
+  ASSERT_EQ(made.told.meshes.size(), 1u);
+  EXPECT_NE(made.told.meshes[0].why_not, "");
+  std::string loose = scene;
+  loose.replace(loose.find("creaseIndices = [0, 1, 3]"), 25, "creaseIndices = [0, 1, 6]");
+  const Flattened told = flattened(loose);
+  ASSERT_EQ(told.told.warnings.size(), 1u);
+  EXPECT_NE(told.told.warnings[0].find("/World/Cube: creaseIndices"), std::string::npos) << told.told.warnings[0];
+}
+
 TEST(CliFlatten, TakesCompressedScenes) {
   const TemporaryDirectory directory;
   const std::string path = directory.write("scene.usda.gz", compressed(scene)).string(),

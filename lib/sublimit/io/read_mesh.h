@@ -14,7 +14,7 @@ namespace sublimit {
 /// Reads .obj (with tags), .ply, .off, .stl, .glb, .gltf, .usda or .usdz, by the extension of `path` in either case.
 /// Files that gzip compressed are inflated, whatever their names are; `mesh.obj.gz` is read as `mesh.obj` is.
 ///
-/// Of glTF the triangles of the scene are read, where its nodes put them. Vertices of a mesh that have equal
+/// Reads of glTF the triangles of the scene, where its nodes put them. Vertices of a mesh that have equal
 /// coordinates are one vertex, so that surfaces are closed where normals or texture coordinates differ. Names of nodes
 /// are `objects`, those of materials `materials`; texture coordinates are of corners, with t from the lower edge;
 /// colours stay as they are in the file, which are linear ones. What is left out is told in `warnings` and `notes`.

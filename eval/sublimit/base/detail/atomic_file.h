@@ -38,7 +38,7 @@ namespace sublimit {
 /// @note  No fsync: the rename is atomic for every process, not against power failure.
 class AtomicFile {
  public:
-  /// What is written: only the end, or also bytes before it, by `rewrite`.
+  /// Where bytes of the file may be written: at its end alone, or also before it, by `rewrite`.
   enum class Access { at_end, anywhere };
 
   /// Opens a temporary beside the target.

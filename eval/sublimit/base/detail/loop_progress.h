@@ -17,7 +17,7 @@ namespace detail {
 
 inline constinit std::atomic<LoopProgress*> watched_loops = nullptr;
 
-/// Counts the blocks of a loop, if somebody watches. Loops inside of blocks are not counted.
+/// Counts the blocks of a loop while its progress is shown. Loops inside of blocks are not counted.
 class LoopCount {
  public:
   LoopCount(std::int64_t blocks, bool is_inside) : progress_(is_inside ? nullptr : watched_loops.load()) {

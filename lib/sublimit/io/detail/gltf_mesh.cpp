@@ -139,7 +139,7 @@ class MeshReader {
     if (group[0].numbers >= 0) numbers.emplace(file_, group[0].numbers);
     if (numbers && (numbers->columns() != 2 || numbers->type() != GltfType::uint16 || numbers->is_normalized() ||
                     numbers->count() != positions.count()))
-      numbers.reset();  // somebody else's
+      numbers.reset();  // an attribute of another program
     const auto rows = static_cast<std::size_t>(positions.count());
     if (vertex_of_.size() < rows) vertex_of_.resize(rows, -1), last_user_.resize(rows, -1);
 

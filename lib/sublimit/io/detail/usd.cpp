@@ -102,7 +102,7 @@ class Merger {
       const Eigen::Matrix3d linear = one.to_world.topLeftCorner<3, 3>();
       if (mesh.normals.rows() > 0 && linear.determinant() != 0)
         mesh.normals = (mesh.normals * linear.inverse()).rowwise().normalized().eval();
-      if (linear.determinant() < 0) turn(mesh);
+      if (linear.determinant() < 0) turn_faces(mesh);
     }
     add_normals(mesh);
     checked_index(std::ssize(all.face_vertices) + std::ssize(mesh.face_vertices), one.place, "corners of faces");
@@ -152,18 +152,6 @@ class Merger {
   };
 
   Index num_vertices() const { return static_cast<Index>(positions_.size() / 3); }
-  static void turn(Mesh& mesh) {
-    std::size_t first = 0;
-    for (const Index size : mesh.face_sizes) {
-      const auto turn_in = [&](std::vector<Index>& of_corners) {
-        std::reverse(of_corners.begin() + std::ptrdiff_t(first) + 1, of_corners.begin() + std::ptrdiff_t(first) + size);
-      };
-      turn_in(mesh.face_vertices);
-      for (Mesh::FaceVarying& channel : mesh.face_varying) turn_in(channel.indices);
-      if (!mesh.face_normals.empty()) turn_in(mesh.face_normals);
-      first += std::size_t(size);
-    }
-  }
   template <class T>
   static void append(const std::vector<T>& from, std::vector<T>& to) {
     to.insert(to.end(), from.begin(), from.end());

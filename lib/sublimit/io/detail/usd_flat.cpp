@@ -29,7 +29,7 @@ struct NewProperty {
   bool replaces_metadata = false;  ///< and of one that is there
 };
 
-/// What is to be done with one prim.
+/// Changes of one prim.
 struct PrimEdit {
   std::vector<NewProperty> properties;
   std::vector<std::string> removed;  ///< properties, with their samples
@@ -120,7 +120,7 @@ void add_normals(const UsdFlat& flat, PrimEdit& edit) {
   edit.properties.push_back(std::move(normals));
 }
 
-void add_points(const UsdFlat& flat, PrimEdit& edit) {
+void add_points(const UsdFlat& flat, PrimEdit& edit, std::vector<std::string>& warnings) {
   const UsdProperty* const given = declared(*flat.from, "points");
   const auto type = usd_type(given->type);
   const ValueType digits = type && type->numbers == ValueType::float64 ? ValueType::float64 : ValueType::float32;
@@ -130,6 +130,12 @@ void add_points(const UsdFlat& flat, PrimEdit& edit) {
     edit.properties.push_back(
         {"points", "timeSamples", std::string(given->type),
          in_braces(flat.from->times, [&](std::size_t i) { return list_of_rows(flat.points[i], digits); })});
+  const auto has_default = [](const UsdPrim::Opinion& opinion) {
+    const UsdProperty* const points = opinion.spec->property("points");
+    return points && !points->value.empty();
+  };
+  if (!flat.points.empty() && std::ranges::any_of(flat.from->opinions, has_default))
+    warnings.push_back(flat.from->place + "points without a time become those of the first time");
   if (!declared(*flat.from, "extent") || flat.mesh.num_vertices() == 0) return;
   Points extent(2, 3);
   extent.row(0) = flat.mesh.positions.colwise().minCoeff();
@@ -200,7 +206,7 @@ void add_primvars(const UsdFlat& flat, PrimEdit& edit, std::vector<std::string>&
 
 PrimEdit edit_of(const UsdFlat& flat, std::vector<std::string>& warnings) {
   PrimEdit edit;
-  add_points(flat, edit);
+  add_points(flat, edit, warnings);
   edit.properties.push_back({"faceVertexCounts", "", "int[]", list_of_indices(flat.mesh.face_sizes)});
   edit.properties.push_back({"faceVertexIndices", "", "int[]", list_of_indices(flat.mesh.face_vertices)});
   add_normals(flat, edit);
@@ -303,7 +309,7 @@ class LayerEditor {
       write(node, indent_of(spec->text) + (spec == &layer_.root ? "" : "    "), text);
       insert_last(*spec, text);
     }
-    // What is put in comes before what is taken out at the same place.
+    // At one place text is put in before other text is taken out.
     std::ranges::stable_sort(
         edits_, [](const Edit& a, const Edit& b) { return a.begin != b.begin ? a.begin < b.begin : a.end < b.end; });
     std::string out;

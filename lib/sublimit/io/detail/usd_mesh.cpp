@@ -304,13 +304,6 @@ std::vector<T> taken(const std::vector<T>& values, const std::vector<Index>& fro
   return out;
 }
 
-/// Turns the faces of a mesh and of channels, whose values are of its corners.
-void turn_faces(Mesh& mesh) {
-  const std::vector<Index> from = turned_corners(mesh.face_sizes, mesh.face_vertices.size());
-  mesh.face_vertices = taken(mesh.face_vertices, from);
-  for (Mesh::FaceVarying& channel : mesh.face_varying) channel.indices = taken(channel.indices, from);
-}
-
 void read_faces(const UsdPrim& prim, UsdMesh& out) {
   Mesh& mesh = out.mesh;
   const Index most = std::numeric_limits<Index>::max();
@@ -537,6 +530,13 @@ class MeshFinder {
 };
 
 }  // namespace
+
+void turn_faces(Mesh& mesh) {
+  const std::vector<Index> from = turned_corners(mesh.face_sizes, mesh.face_vertices.size());
+  mesh.face_vertices = taken(mesh.face_vertices, from);
+  for (Mesh::FaceVarying& channel : mesh.face_varying) channel.indices = taken(channel.indices, from);
+  if (!mesh.face_normals.empty()) mesh.face_normals = taken(mesh.face_normals, from);
+}
 
 Points UsdPrimvar::expanded() const {
   Points rows(std::ssize(indices), values.cols());

@@ -69,6 +69,9 @@ struct UsdMesh {
 /// @throws FormatError, InvalidMesh  values that cannot be read, faces and tags that do not fit; with their place
 std::vector<UsdMesh> usd_meshes(UsdStage& stage, std::vector<std::string>& warnings, std::optional<double> time = {});
 
+/// Turns the faces of a mesh, with what is of their corners: channels, normals. First corners stay the first.
+void turn_faces(Mesh& mesh);
+
 /// Returns the points of a sample in time.
 /// @throws InvalidMesh  another number of points
 Points usd_points(const UsdMesh& mesh, std::size_t sample);
