@@ -259,19 +259,16 @@ std::string_view scheme_token(const Mesh& mesh) {
 
 void write_rules(const Mesh& mesh, UsdArrays& arrays) {
   arrays.write_token("uniform token subdivisionScheme", scheme_token(mesh));
-  constexpr std::array boundaries{"none", "edgeOnly", "edgeAndCorner"};
-  constexpr std::array triangles{"catmullClark", "smooth"};
-  constexpr std::array face_varying{"none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};
-  if (mesh.boundary) arrays.write_token("token interpolateBoundary", boundaries[std::size_t(*mesh.boundary)]);
-  if (mesh.triangles) arrays.write_token("token triangleSubdivisionRule", triangles[std::size_t(*mesh.triangles)]);
+  if (mesh.boundary) arrays.write_token("token interpolateBoundary", usd_boundary_words[std::size_t(*mesh.boundary)]);
+  if (mesh.triangles)
+    arrays.write_token("token triangleSubdivisionRule", usd_triangles_words[std::size_t(*mesh.triangles)]);
   // A channel without a rule is linear in `Mesh`, but not in USD.
   if (mesh.face_varying_interpolation || !mesh.face_varying.empty())
     arrays.write_token(
         "token faceVaryingLinearInterpolation",
-        face_varying[std::size_t(mesh.face_varying_interpolation.value_or(FaceVaryingInterpolation::all))]);
+        usd_face_varying_words[std::size_t(mesh.face_varying_interpolation.value_or(FaceVaryingInterpolation::all))]);
   if (mesh.creasing)
-    arrays.write_token("custom uniform token sublimit:creaseMethod",
-                       *mesh.creasing == Creasing::chaikin ? "chaikin" : "uniform");
+    arrays.write_token("custom uniform token sublimit:creaseMethod", usd_creasing_words[std::size_t(*mesh.creasing)]);
 }
 
 void append_usd_sharpness(std::string& text, float sharpness) {

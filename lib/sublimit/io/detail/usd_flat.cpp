@@ -165,14 +165,17 @@ Points rows_at(const Points& rows, const std::vector<Index>& numbers) {
   return out;
 }
 
+std::string usd_interpolation(Interpolation interpolation) {
+  return "interpolation = \"" + std::string(usd_interpolation_words[std::size_t(interpolation)]) + "\"";
+}
+
 void add_primvars(const UsdFlat& flat, PrimEdit& edit, std::vector<std::string>& warnings) {
-  constexpr std::array words{"constant", "uniform", "varying", "vertex", "faceVarying"};
   for (const UsdPrimvar& primvar : flat.from->primvars) {
     if (primvar.interpolation == Interpolation::constant) continue;
     const std::string name = "primvars:" + primvar.name, indices = name + ":indices";
     const UsdProperty* const given = declared(*flat.from, name);
     const bool has_indices = declared(*flat.from, indices);
-    const std::string metadata = std::string("interpolation = \"") + words[std::size_t(primvar.interpolation)] + "\"";
+    const std::string metadata = usd_interpolation(primvar.interpolation);
     const auto add = [&](const Points& rows) {
       edit.removed.push_back(name);
       edit.properties.push_back(

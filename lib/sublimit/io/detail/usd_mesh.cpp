@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "sublimit/io/detail/obj_names.h"
 #include "sublimit/io/detail/text_scanner.h"
 #include "sublimit/io/detail/usd.h"
+#include "sublimit/io/detail/usd_text.h"
 #include "sublimit/mesh/detail/attributes.h"
 #include "sublimit/mesh/detail/edge_lookup.h"
 
@@ -175,41 +177,30 @@ Matrix local_transform(const UsdPrim& prim, std::optional<double> time, std::vec
   return m;
 }
 
+/// The number of a word; absent if nothing is said.
 template <class T>
-std::optional<T> choice(const UsdPrim& prim, std::string_view name,
-                        std::initializer_list<std::pair<std::string_view, T>> words) {
+std::optional<T> choice(const UsdPrim& prim, std::string_view name, std::span<const std::string_view> words) {
   const std::string word = prim.text(name);
   if (word.empty()) return std::nullopt;
+  const auto found = std::ranges::find(words, word);
+  if (found != words.end()) return static_cast<T>(found - words.begin());
   std::string all;
-  for (const auto& [known, meaning] : words) {
-    if (known == word) return meaning;
-    all += (all.empty() ? "" : ", ") + std::string(known);
-  }
+  for (const std::string_view known : words) all += (all.empty() ? "" : ", ") + std::string(known);
   refuse(prim, name, "is " + in_quotes(word) + "; there are " + all);
 }
 
 void read_rules(const UsdPrim& prim, Mesh& mesh) {
-  using enum FaceVaryingInterpolation;
-  mesh.scheme =
-      choice<std::string>(prim, "subdivisionScheme",
-                          {{"catmullClark", "catmull-clark"}, {"loop", "loop"}, {"bilinear", "bilinear"}, {"none", ""}})
-          .value_or("catmull-clark");
-  mesh.boundary = choice<Boundary>(
-      prim, "interpolateBoundary",
-      {{"none", Boundary::none}, {"edgeOnly", Boundary::edge_only}, {"edgeAndCorner", Boundary::edge_and_corner}});
-  mesh.triangles = choice<Triangles>(prim, "triangleSubdivisionRule",
-                                     {{"catmullClark", Triangles::catmark}, {"smooth", Triangles::smooth}});
-  mesh.creasing =
-      choice<Creasing>(prim, "sublimit:creaseMethod", {{"uniform", Creasing::uniform}, {"chaikin", Creasing::chaikin}});
-  mesh.face_varying_interpolation = choice<FaceVaryingInterpolation>(prim, "faceVaryingLinearInterpolation",
-                                                                     {{"none", none},
-                                                                      {"cornersOnly", corners_only},
-                                                                      {"cornersPlus1", corners_plus1},
-                                                                      {"cornersPlus2", corners_plus2},
-                                                                      {"boundaries", boundaries},
-                                                                      {"all", all}});
+  constexpr std::array<std::string_view, 4> schemes{"catmullClark", "loop", "bilinear", "none"};
+  constexpr std::array names{"catmull-clark", "loop", "bilinear", ""};
+  mesh.scheme = names[choice<std::size_t>(prim, "subdivisionScheme", schemes).value_or(0)];
+  mesh.boundary = choice<Boundary>(prim, "interpolateBoundary", usd_boundary_words);
+  mesh.triangles = choice<Triangles>(prim, "triangleSubdivisionRule", usd_triangles_words);
+  mesh.creasing = choice<Creasing>(prim, "sublimit:creaseMethod", usd_creasing_words);
+  mesh.face_varying_interpolation =
+      choice<FaceVaryingInterpolation>(prim, "faceVaryingLinearInterpolation", usd_face_varying_words);
   // What USD takes where nothing is said differs from `Mesh`.
-  if (!mesh.scheme.empty() && !mesh.face_varying_interpolation) mesh.face_varying_interpolation = corners_plus1;
+  if (!mesh.scheme.empty() && !mesh.face_varying_interpolation)
+    mesh.face_varying_interpolation = FaceVaryingInterpolation::corners_plus1;
 }
 
 std::vector<float> sharpnesses(const UsdPrim& prim, std::string_view name) {
@@ -358,7 +349,7 @@ void read_primvar(const UsdPrim& prim, const Found& found, UsdMesh& out) {
           per_element = usd_indices(*opinion.layer, field.value, "elementSize", 1, 1 << 20)[0];
         if (field.key != "interpolation" || primvar.interpolation != constant) continue;
         const auto word = usd_texts(*opinion.layer, field.value, "interpolation");
-        constexpr std::array<std::string_view, 5> words{"constant", "uniform", "varying", "vertex", "faceVarying"};
+        constexpr auto& words = usd_interpolation_words;
         const auto known = word.empty() ? words.end() : std::ranges::find(words, word[0]);
         if (known == words.end())
           return leave_out(
@@ -384,10 +375,9 @@ void read_primvar(const UsdPrim& prim, const Found& found, UsdMesh& out) {
   }
   if (primvar.interpolation == constant && std::ssize(primvar.indices) > 1) return note("a list that is constant");
   if (std::ssize(primvar.indices) != count)
-    return leave_out(
-        "it has " + format_number(primvar.indices.size()) + " values; as " +
-        std::array{"constant", "uniform", "varying", "vertex", "faceVarying"}[std::size_t(primvar.interpolation)] +
-        " it should have " + format_number(count));
+    return leave_out("it has " + format_number(primvar.indices.size()) + " values; as " +
+                     std::string(usd_interpolation_words[std::size_t(primvar.interpolation)]) + " it should have " +
+                     format_number(count));
   out.primvars.push_back(std::move(primvar));
 }
 
@@ -500,7 +490,8 @@ class MeshFinder {
     read_rules(prim, out.mesh);
     read_tags(prim, out.mesh);
     read_primvars(prim, out);
-    out.left_handed = choice<bool>(prim, "orientation", {{"rightHanded", false}, {"leftHanded", true}}).value_or(false);
+    constexpr std::array<std::string_view, 2> hands{"rightHanded", "leftHanded"};
+    out.left_handed = choice<bool>(prim, "orientation", hands).value_or(false);
     if (out.left_handed) {
       const std::vector<Index> from = turned_corners(out.mesh.face_sizes, out.mesh.face_vertices.size());
       turn_faces(out.mesh);

@@ -3,6 +3,7 @@
 // Parts of the text of USD: identifiers for prims and primvars, texts in quotes, lists of values.
 #include <Eigen/Core>
 
+#include <array>
 #include <cctype>
 #include <cstdint>
 #include <string>
@@ -14,6 +15,16 @@
 #include "sublimit/base/detail/row_writer.h"
 
 namespace sublimit {
+
+/// Words of USD for rules, in the order of the enumerators of mesh/mesh.h.
+inline constexpr std::array<std::string_view, 3> usd_boundary_words{"none", "edgeOnly", "edgeAndCorner"};
+inline constexpr std::array<std::string_view, 2> usd_creasing_words{"uniform", "chaikin"};
+inline constexpr std::array<std::string_view, 2> usd_triangles_words{"catmullClark", "smooth"};
+inline constexpr std::array<std::string_view, 6> usd_face_varying_words{"none",         "cornersOnly", "cornersPlus1",
+                                                                        "cornersPlus2", "boundaries",  "all"};
+/// Words for the interpolation of primvars, in the order of `UsdPrimvar::Interpolation`.
+inline constexpr std::array<std::string_view, 5> usd_interpolation_words{"constant", "uniform", "varying", "vertex",
+                                                                         "faceVarying"};
 
 /// Name of the only mesh of a file, which is no object's.
 inline constexpr const char* unnamed_usd_mesh = "mesh";
